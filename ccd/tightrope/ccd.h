@@ -1,0 +1,57 @@
+#pragma once
+/// Continuous collision detection between linearly moving primitives: vertex against face, edge against edge.
+///
+/// A query asks: does the closed vertex touch the closed triangle (the closed segments each other) at some time t in
+/// [0, 1], each of the four points moving linearly from its position at t = 0 to that at t = 1? Degenerate triangles and
+/// segments included. `false` is a guarantee from every method but `bsc_float`; `true` may be a false positive.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace tightrope::ccd {
+
+/// Order of points everywhere, the public benchmark's: vertex-face: v f0 f1 f2 at t = 0, then at t = 1;
+/// edge-edge: ea0 ea1 eb0 eb1 at t = 0, then at t = 1.
+enum class Kind { vertex_face, edge_edge };
+
+enum class Method {
+  bsc_float,  ///< Bernstein sign classification in plain floating point: no bound, may miss collisions
+  bsc_safe,   ///< with SafeBound [Wang 2014]
+  tight,      ///< with TightBound: TightCCD [Wang et al. 2015], repaired
+};
+
+struct MethodInfo {
+  Method method;
+  std::string_view name;    ///< "bsc-float", as the commands spell it
+  std::string_view bound;   ///< "none", "SafeBound", "TightBound"
+  bool conservative;        ///< never misses a collision
+  std::string_view source;
+};
+
+/// Every method, in the order of the tables.
+std::span<const MethodInfo> methods();
+std::optional<Method> method_by_name(std::string_view name);
+std::string_view name(Method method);
+std::string_view name(Kind kind);  ///< "vertex-face", "edge-edge"
+
+/// Does the vertex touch the triangle? Units are the caller's; non-finite coordinates give true.
+bool vertex_face(const Eigen::Vector3d& v_t0, const Eigen::Vector3d& f0_t0, const Eigen::Vector3d& f1_t0,
+                 const Eigen::Vector3d& f2_t0, const Eigen::Vector3d& v_t1, const Eigen::Vector3d& f0_t1,
+                 const Eigen::Vector3d& f1_t1, const Eigen::Vector3d& f2_t1, Method method = Method::tight);
+
+/// Do the edges touch?
+bool edge_edge(const Eigen::Vector3d& ea0_t0, const Eigen::Vector3d& ea1_t0, const Eigen::Vector3d& eb0_t0,
+               const Eigen::Vector3d& eb1_t0, const Eigen::Vector3d& ea0_t1, const Eigen::Vector3d& ea1_t1,
+               const Eigen::Vector3d& eb0_t1, const Eigen::Vector3d& eb1_t1, Method method = Method::tight);
+
+/// The same on plain memory: `points` holds 8 points of 3 coordinates in the order of `Kind`.
+bool collides(Kind kind, const double* points, Method method = Method::tight);
+
+/// `count` queries, `points` holding 24 * count doubles; `results` must hold `count` bytes and gets 0 or 1.
+void collides(Kind kind, const double* points, std::size_t count, unsigned char* results, Method method = Method::tight);
+
+}  // namespace tightrope::ccd

@@ -1,0 +1,84 @@
+#pragma once
+/// The floating-point operations of generated code, and the guards that keep a compiler from changing them.
+///
+/// Assumed, and not checkable at compile time: round to nearest, gradual underflow (no flush-to-zero).
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
+    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "Tightrope: error bounds do not hold under -ffast-math or its parts"
+#endif
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && !defined(__CUDACC__)
+#error "Tightrope: error bounds do not hold with excess precision (x87); use -mfpmath=sse"
+#endif
+
+#if defined(__CUDACC__)
+#define TIGHTROPE_FUNCTION __host__ __device__ inline
+#elif defined(__GNUC__)
+#define TIGHTROPE_FUNCTION __attribute__((always_inline)) inline
+#else
+#define TIGHTROPE_FUNCTION inline
+#endif
+
+namespace tightrope {
+
+/// a * b, rounded on its own: no compiler may contract it with a following addition into an fma. g++ ignores the
+/// standard pragma and contracts by default; its barrier keeps the rounded product, the pragma does it for clang.
+TIGHTROPE_FUNCTION double product(double a, double b) {
+#if defined(__CUDA_ARCH__)
+  return __dmul_rn(a, b);
+#elif defined(__clang__)
+#pragma clang fp contract(off)
+  return a * b;
+#elif defined(__GNUC__) && __GNUC__ >= 12
+  return __builtin_assoc_barrier(a * b);
+#else
+  double p = a * b;
+  asm("" : "+x"(p));
+  return p;
+#endif
+}
+
+/// a * b in single precision; see above.
+TIGHTROPE_FUNCTION float product(float a, float b) {
+#if defined(__CUDA_ARCH__)
+  return __fmul_rn(a, b);
+#elif defined(__clang__)
+#pragma clang fp contract(off)
+  return a * b;
+#elif defined(__GNUC__) && __GNUC__ >= 12
+  return __builtin_assoc_barrier(a * b);
+#else
+  float p = a * b;
+  asm("" : "+x"(p));
+  return p;
+#endif
+}
+
+template <class Real>
+TIGHTROPE_FUNCTION constexpr Real magnitude(Real a) {
+  return __builtin_fabs(a);
+}
+template <>
+TIGHTROPE_FUNCTION constexpr float magnitude(float a) {
+  return __builtin_fabsf(a);
+}
+
+/// min(a, b); NaN if either is NaN, unlike std::fmin and `a < b ? a : b`.
+template <class Real>
+TIGHTROPE_FUNCTION constexpr Real minimum(Real a, Real b) {
+  return a < b ? a : b <= a ? b : a + b;
+}
+
+/// max(a, b); NaN if either is NaN.
+template <class Real>
+TIGHTROPE_FUNCTION constexpr Real maximum(Real a, Real b) {
+  return a > b ? a : b >= a ? b : a + b;
+}
+
+/// max(a, b) of non-negative numbers in one instruction; a NaN may be lost. For the run-time maxima of SafeBound only.
+template <class Real>
+TIGHTROPE_FUNCTION constexpr Real max_magnitude(Real a, Real b) {
+  return a > b ? a : b;
+}
+
+}  // namespace tightrope
