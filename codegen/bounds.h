@@ -1,0 +1,63 @@
+#pragma once
+/// Graph to graph with error bounds: the common shape of all bound modes.
+
+#include <string>
+#include <vector>
+
+#include "dsl/program.h"
+
+namespace tightrope::codegen {
+
+enum class BoundMode { none, safe, tight };
+enum class Precision { binary64, binary32 };
+
+const char* name(BoundMode mode);             ///< "float", "safe", "tight"
+const char* name(Precision precision);        ///< "double", "float"
+
+/// Value and bound of one output element: |value - exact| <= bound, evaluated as floating point in the graph's order.
+struct BoundedNode {
+  dsl::NodeId value = dsl::no_node;
+  dsl::NodeId bound = dsl::no_node;
+};
+
+/// What is known of an output at compile time (for headers and reports).
+struct OutputBound {
+  std::vector<BoundedNode> elements;  ///< as Output::nodes
+  int roundings = 0;                  ///< safe: k; else 0
+  std::string magnitude;              ///< safe: B as text, "6 b_x b_y b_z"; else empty
+  std::string assumption;             ///< what the bound rests on beyond the model, e.g. the declared ranges; may be empty
+};
+
+struct BoundedStage {
+  std::vector<OutputBound> outputs;  ///< as Stage::outputs
+};
+
+/// A predicate's graph with bounds. Input slots 0 .. n-1 are those of the predicate; slot n + i is the bound that comes
+/// with bounded input i (n = Predicate::slots.size()).
+struct BoundedPredicate {
+  dsl::Graph graph;
+  std::vector<BoundedStage> stages;
+};
+
+/// Test hook: leaves one term out of every bound, to show that the tests notice.
+enum class Weakening {
+  none,
+  drop_rounding_of_sums,         ///< u |a + b|
+  drop_rounding_of_products,     ///< u |a b|
+  drop_rounding_of_differences,  ///< u |x - y| of two inputs
+  drop_first_factor_error,       ///< R_a |b|
+  drop_second_factor_error,      ///< |a| R_b
+  drop_operand_error_of_sums,    ///< R_b of a + b
+  drop_division_rounding,        ///< u |a / c|
+  drop_input_bound,              ///< the bound of a bounded input
+  drop_underflow,                ///< every underflow term
+  halve_unit_roundoff,           ///< u / 2 in place of u
+  drop_product_of_errors,        ///< R_a R_b
+};
+
+/// Adds bounds to a predicate; errors (an operation without a bound in this mode, a constant that the precision does not
+/// hold) go to `diagnostics` with the place of the output.
+BoundedPredicate add_bounds(const dsl::Predicate& predicate, BoundMode mode, Precision precision,
+                            dsl::Diagnostics& diagnostics, Weakening weakening = Weakening::none);
+
+}  // namespace tightrope::codegen
