@@ -1,0 +1,273 @@
+#pragma once
+/// Exact dyadic numbers (m * 2^e, any integers m and e): closed under + - * and scaling, every finite double is one.
+/// Host only. Products and sums never round; to_double() and its relatives round once, as their names say.
+
+#include <tightrope/limbs.h>
+
+#include <bit>
+#include <compare>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace tightrope {
+
+/// An exact number m * 2^e. Memory grows with the distance between its highest and its lowest bit.
+class Dyadic {
+ public:
+  Dyadic() = default;  ///< zero
+  /// Exactly `value`, which must be finite (aborts otherwise). A float converts to double exactly first.
+  explicit Dyadic(double value);
+  explicit Dyadic(long double value) = delete;
+  template <std::integral Integer>
+  requires(sizeof(Integer) <= 8) explicit Dyadic(Integer value) : limbs_(value == 0 ? 0 : 1) {
+    if (value == 0) return;
+    negative_ = value < 0;
+    const auto bits = static_cast<std::uint64_t>(value);
+    *limbs_.data() = negative_ ? 0 - bits : bits;
+  }
+
+  int sign() const { return limbs_.empty() ? 0 : negative_ ? -1 : 1; }  ///< -1, 0, +1
+
+  double to_double() const { return round<double>(Direction::nearest); }  ///< nearest, ties to even; overflow gives inf
+  float to_float() const { return round<float>(Direction::nearest); }     ///< the same in single precision
+  double floor_double() const { return round<double>(Direction::down); }  ///< largest double <= *this (may be -inf)
+  double ceil_double() const { return round<double>(Direction::up); }     ///< smallest double >= *this (may be +inf)
+
+  /// The exponent of the highest set bit: 2^e <= |*this| < 2^(e+1). Not for zero.
+  std::int64_t high_exponent() const;
+  /// The exponent of the lowest set bit: the largest e with *this an integer multiple of 2^e. Not for zero.
+  std::int64_t low_exponent() const;
+  /// Exact text, "-0x1f5p-3": hexadecimal integer times a power of two.
+  std::string to_string() const;
+
+  Dyadic operator-() const&;
+  Dyadic operator-() &&;
+  friend Dyadic operator+(const Dyadic& a, const Dyadic& b) { return sum(a, b, b.negative_); }
+  friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return sum(a, b, !b.negative_); }
+  friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
+  Dyadic& operator+=(const Dyadic& b) { return *this = *this + b; }
+  Dyadic& operator-=(const Dyadic& b) { return *this = *this - b; }
+  Dyadic& operator*=(const Dyadic& b) { return *this = *this * b; }
+  friend std::strong_ordering operator<=>(const Dyadic& a, const Dyadic& b);
+  friend bool operator==(const Dyadic& a, const Dyadic& b) { return (a <=> b) == 0; }
+  friend Dyadic mul_pow2(const Dyadic& a, std::int64_t exponent);  ///< a * 2^exponent
+
+ private:
+  enum class Direction { nearest, down, up };
+  template <std::floating_point Real>
+  Real round(Direction direction) const;
+  /// floor(|*this| / 2^position), which must be below 2^64.
+  std::uint64_t bits_from(std::int64_t position) const;
+  std::uint64_t limb_at(std::int64_t index) const {
+    const std::int64_t i = index - offset_;
+    return i >= 0 && i < static_cast<std::int64_t>(limbs_.size()) ? limbs_[static_cast<std::size_t>(i)] : 0;
+  }
+  std::int64_t end() const { return offset_ + static_cast<std::int64_t>(limbs_.size()); }
+  void normalise();
+  static std::strong_ordering compare_magnitudes(const Dyadic& a, const Dyadic& b);
+  static Dyadic sum(const Dyadic& a, const Dyadic& b, bool b_negative);
+  static Dyadic add_magnitudes(const Dyadic& a, const Dyadic& b);
+  static Dyadic subtract_magnitudes(const Dyadic& larger, const Dyadic& smaller);
+
+  // |*this| = sum of limbs_[i] * 2^(64 (offset_ + i)). Exponents in whole limbs make sums free of shifts.
+  // Invariant: first and last limb are not zero; zero has no limbs, offset 0 and is not negative.
+  detail::Limbs limbs_;
+  std::int64_t offset_ = 0;
+  bool negative_ = false;
+};
+
+inline Dyadic::Dyadic(double value) {
+  const auto pattern = std::bit_cast<std::uint64_t>(value);
+  const int biased = static_cast<int>(pattern >> 52 & 0x7ff);
+  std::uint64_t significand = pattern & ((std::uint64_t{1} << 52) - 1);
+  if (biased == 0x7ff) detail::exact_precondition_violated("Dyadic is made of a finite number");
+  if (biased != 0) significand |= std::uint64_t{1} << 52;
+  if (significand == 0) return;
+  const int exponent = (biased == 0 ? 1 : biased) - 1075;  // value = +-significand * 2^exponent
+  const int shift = ((exponent % 64) + 64) % 64;
+  offset_ = (exponent - shift) / 64;
+  const detail::Wide shifted = static_cast<detail::Wide>(significand) << shift;
+  limbs_ = detail::Limbs(2);
+  limbs_.data()[0] = static_cast<std::uint64_t>(shifted);
+  limbs_.data()[1] = static_cast<std::uint64_t>(shifted >> 64);
+  negative_ = pattern >> 63 != 0;
+  normalise();
+}
+
+inline void Dyadic::normalise() {
+  offset_ += static_cast<std::int64_t>(limbs_.trim());
+  if (limbs_.empty()) {
+    offset_ = 0;
+    negative_ = false;
+  }
+}
+
+inline std::int64_t Dyadic::high_exponent() const {
+  if (limbs_.empty()) detail::exact_precondition_violated("high_exponent of a number that is not zero");
+  return 64 * end() - 1 - std::countl_zero(limbs_[limbs_.size() - 1]);
+}
+
+inline std::int64_t Dyadic::low_exponent() const {
+  if (limbs_.empty()) detail::exact_precondition_violated("low_exponent of a number that is not zero");
+  return 64 * offset_ + std::countr_zero(limbs_[0]);
+}
+
+inline Dyadic Dyadic::operator-() const& {
+  Dyadic r = *this;
+  r.negative_ = !r.negative_ && !r.limbs_.empty();
+  return r;
+}
+
+inline Dyadic Dyadic::operator-() && {
+  negative_ = !negative_ && !limbs_.empty();
+  return std::move(*this);
+}
+
+inline std::strong_ordering Dyadic::compare_magnitudes(const Dyadic& a, const Dyadic& b) {
+  if (a.limbs_.empty() || b.limbs_.empty()) return a.limbs_.size() <=> b.limbs_.size();
+  if (a.end() != b.end()) return a.end() <=> b.end();
+  const std::int64_t low = std::min(a.offset_, b.offset_);
+  for (std::int64_t i = a.end() - 1; i >= low; --i) {
+    const std::uint64_t x = a.limb_at(i), y = b.limb_at(i);
+    if (x != y) return x <=> y;
+  }
+  return std::strong_ordering::equal;
+}
+
+inline std::strong_ordering operator<=>(const Dyadic& a, const Dyadic& b) {
+  if (a.sign() != b.sign()) return a.sign() <=> b.sign();
+  return a.negative_ ? Dyadic::compare_magnitudes(b, a) : Dyadic::compare_magnitudes(a, b);
+}
+
+inline Dyadic Dyadic::add_magnitudes(const Dyadic& a, const Dyadic& b) {
+  Dyadic r;
+  r.offset_ = std::min(a.offset_, b.offset_);
+  const auto n = static_cast<std::size_t>(std::max(a.end(), b.end()) - r.offset_ + 1);  // one limb for the carry
+  r.limbs_ = detail::Limbs(n);
+  const auto a_at = static_cast<std::size_t>(a.offset_ - r.offset_);
+  std::copy_n(a.limbs_.data(), a.limbs_.size(), r.limbs_.data() + a_at);
+  detail::add_to(r.limbs_.data(), n, b.limbs_, static_cast<std::size_t>(b.offset_ - r.offset_));
+  return r;
+}
+
+inline Dyadic Dyadic::subtract_magnitudes(const Dyadic& larger, const Dyadic& smaller) {
+  Dyadic r;
+  r.offset_ = std::min(larger.offset_, smaller.offset_);
+  const auto n = static_cast<std::size_t>(larger.end() - r.offset_);
+  r.limbs_ = detail::Limbs(n);
+  const auto at = static_cast<std::size_t>(larger.offset_ - r.offset_);
+  std::copy_n(larger.limbs_.data(), larger.limbs_.size(), r.limbs_.data() + at);
+  detail::subtract_from(r.limbs_.data(), n, smaller.limbs_, static_cast<std::size_t>(smaller.offset_ - r.offset_));
+  return r;
+}
+
+inline Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_negative) {
+  if (b.limbs_.empty()) return a;
+  Dyadic r;
+  if (a.limbs_.empty()) {
+    r = b;
+    r.negative_ = b_negative;
+    return r;
+  }
+  if (a.negative_ == b_negative) {
+    r = add_magnitudes(a, b);
+    r.negative_ = b_negative;
+  } else {
+    const std::strong_ordering order = compare_magnitudes(a, b);
+    if (order == 0) return r;
+    r = order > 0 ? subtract_magnitudes(a, b) : subtract_magnitudes(b, a);
+    r.negative_ = order > 0 ? a.negative_ : b_negative;
+  }
+  r.normalise();
+  return r;
+}
+
+inline Dyadic operator*(const Dyadic& a, const Dyadic& b) {
+  Dyadic r;
+  if (a.limbs_.empty() || b.limbs_.empty()) return r;
+  r.limbs_ = detail::Limbs(a.limbs_.size() + b.limbs_.size());
+  detail::multiply(a.limbs_.data(), a.limbs_.size(), b.limbs_.data(), b.limbs_.size(), r.limbs_.data());
+  r.offset_ = a.offset_ + b.offset_;
+  r.negative_ = a.negative_ != b.negative_;
+  r.normalise();
+  return r;
+}
+
+inline Dyadic mul_pow2(const Dyadic& a, std::int64_t exponent) {
+  if (a.limbs_.empty()) return a;
+  const int shift = static_cast<int>(((exponent % 64) + 64) % 64);
+  const std::size_t n = a.limbs_.size();
+  Dyadic r;
+  r.limbs_ = detail::Limbs(n + 1);
+  std::uint64_t* out = r.limbs_.data();
+  std::uint64_t carry = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const detail::Wide t = (static_cast<detail::Wide>(a.limbs_[i]) << shift) | carry;
+    out[i] = static_cast<std::uint64_t>(t);
+    carry = static_cast<std::uint64_t>(t >> 64);
+  }
+  out[n] = carry;
+  r.offset_ = a.offset_ + (exponent - shift) / 64;
+  r.negative_ = a.negative_;
+  r.normalise();
+  return r;
+}
+
+inline std::uint64_t Dyadic::bits_from(std::int64_t position) const {
+  const std::int64_t shift = ((position % 64) + 64) % 64;
+  const std::int64_t index = (position - shift) / 64;
+  const std::uint64_t low = limb_at(index) >> shift;
+  return shift == 0 ? low : low | limb_at(index + 1) << (64 - shift);
+}
+
+template <std::floating_point Real>
+Real Dyadic::round(Direction direction) const {
+  using Limits = std::numeric_limits<Real>;
+  if (limbs_.empty()) return 0;
+  const std::int64_t high = high_exponent();
+  const bool away = direction == (negative_ ? Direction::down : Direction::up);  // directed rounding grows |*this|
+  const bool nearest = direction == Direction::nearest;
+  Real magnitude = 0;
+  if (high >= Limits::max_exponent) {
+    magnitude = nearest || away ? Limits::infinity() : Limits::max();
+  } else {
+    // The unit in the last place of the result: 2^ulp, with gradual underflow.
+    constexpr std::int64_t lowest = Limits::min_exponent - Limits::digits;
+    const std::int64_t ulp = std::max<std::int64_t>(high - (Limits::digits - 1), lowest);
+    std::uint64_t m = high < ulp ? 0 : bits_from(ulp);  // below 2^digits
+    const std::int64_t low = low_exponent();
+    const bool half = high >= ulp - 1 && (bits_from(ulp - 1) & 1U) != 0;
+    const bool rest = low < ulp - 1;
+    const bool increment = nearest ? half && (rest || (m & 1U) != 0) : away && low < ulp;
+    m += increment ? 1U : 0U;
+    // m <= 2^digits and m * 2^ulp is a Real or overflows: no step of the scaling rounds.
+    magnitude = static_cast<Real>(m);
+    for (std::int64_t e = ulp; e != 0;) {
+      const std::int64_t step = std::clamp<std::int64_t>(e, -60, 60);
+      const Real factor = static_cast<Real>(std::uint64_t{1} << (step < 0 ? -step : step));
+      magnitude = step < 0 ? magnitude / factor : magnitude * factor;
+      e -= step;
+    }
+  }
+  return negative_ ? -magnitude : magnitude;
+}
+
+inline std::string Dyadic::to_string() const {
+  if (limbs_.empty()) return "0x0p+0";
+  std::string digits;
+  const std::int64_t low = low_exponent();
+  for (std::int64_t position = low; position <= high_exponent(); position += 4) {
+    digits.insert(digits.begin(), "0123456789abcdef"[bits_from(position) & 15U]);
+  }
+  return (negative_ ? "-0x" : "0x") + digits + (low < 0 ? "p" : "p+") + std::to_string(low);
+}
+
+inline Dyadic abs(const Dyadic& a) { return a.sign() < 0 ? -a : a; }
+inline Dyadic min(const Dyadic& a, const Dyadic& b) { return b < a ? b : a; }
+inline Dyadic max(const Dyadic& a, const Dyadic& b) { return a < b ? b : a; }
+inline Dyadic fma(const Dyadic& a, const Dyadic& b, const Dyadic& c) { return a * b + c; }
+
+}  // namespace tightrope
