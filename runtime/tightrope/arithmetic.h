@@ -21,19 +21,25 @@
 
 namespace tightrope {
 
+#if defined(__x86_64__) || defined(__i386__)
+#define TIGHTROPE_FLOAT_REGISTER "+x"
+#elif defined(__aarch64__)
+#define TIGHTROPE_FLOAT_REGISTER "+w"
+#else
+#define TIGHTROPE_FLOAT_REGISTER "+m"
+#endif
+
 /// a * b, rounded on its own: no compiler may contract it with a following addition into an fma. g++ ignores the
-/// standard pragma and contracts by default; its barrier keeps the rounded product, the pragma does it for clang.
+/// standard pragma and contracts by default; its barrier keeps the rounded product. clang heeds the pragma unless
+/// -ffp-contract=fast overrules it (its back end then fuses whatever it sees), which an empty asm statement prevents.
 TIGHTROPE_FUNCTION double product(double a, double b) {
 #if defined(__CUDA_ARCH__)
   return __dmul_rn(a, b);
-#elif defined(__clang__)
-#pragma clang fp contract(off)
-  return a * b;
-#elif defined(__GNUC__) && __GNUC__ >= 12
+#elif defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
   return __builtin_assoc_barrier(a * b);
 #else
   double p = a * b;
-  asm("" : "+x"(p));
+  asm("" : TIGHTROPE_FLOAT_REGISTER(p));
   return p;
 #endif
 }
@@ -42,17 +48,16 @@ TIGHTROPE_FUNCTION double product(double a, double b) {
 TIGHTROPE_FUNCTION float product(float a, float b) {
 #if defined(__CUDA_ARCH__)
   return __fmul_rn(a, b);
-#elif defined(__clang__)
-#pragma clang fp contract(off)
-  return a * b;
-#elif defined(__GNUC__) && __GNUC__ >= 12
+#elif defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
   return __builtin_assoc_barrier(a * b);
 #else
   float p = a * b;
-  asm("" : "+x"(p));
+  asm("" : TIGHTROPE_FLOAT_REGISTER(p));
   return p;
 #endif
 }
+
+#undef TIGHTROPE_FLOAT_REGISTER
 
 template <class Real>
 TIGHTROPE_FUNCTION constexpr Real magnitude(Real a) {
