@@ -1,12 +1,17 @@
-# tightrope_add_predicates(TARGET FILES a.pred .. BOUNDS float|safe|tight .. REALS double|float .. [TESTS])
+# tightrope_add_predicates(TARGET FILES a.pred .. [BOUNDS float|safe|tight ..] [REALS double|float ..] [TESTS])
 #
-# Compiles predicates at build time and lets TARGET include the results: "a.tight.double.h" and so on. With TESTS the
-# generated tests are built as TARGET_<stem>_generated_tests and registered with CTest (label `generated`; needs GoogleTest).
-# An INTERFACE library as TARGET passes the include path on.
+# Compiles predicates at build time and lets TARGET include the results, "a.tight.double.h" and so on (BOUNDS default to
+# tight, REALS to double). An INTERFACE library as TARGET passes them on to whoever links it in the same build.
+#
+# TESTS builds the generated tests too, one executable TARGET_<stem>_generated_tests a file, registered with CTest as
+# generated.TARGET.<stem> (label `generated`; needs GoogleTest, and enable_testing() in the top-level CMakeLists.txt).
+cmake_policy(PUSH)
+cmake_policy(VERSION 3.20)  # functions keep the policies of their definition: depfiles work in projects of any age
+
 function(tightrope_add_predicates target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "TESTS" "" "FILES;BOUNDS;REALS")
   if(NOT TARGET ${target})
-    message(FATAL_ERROR "tightrope_add_predicates: ${target} is no target")
+    message(FATAL_ERROR "tightrope_add_predicates: ${target} is not a target")
   endif()
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "tightrope_add_predicates: unknown arguments: ${arg_UNPARSED_ARGUMENTS}")
@@ -20,55 +25,77 @@ function(tightrope_add_predicates target)
   if(NOT arg_REALS)
     set(arg_REALS double)
   endif()
-  list(JOIN arg_BOUNDS "," bounds)
-  list(JOIN arg_REALS "," reals)
-  set(directory ${CMAKE_CURRENT_BINARY_DIR}/${target}_predicates)
-  file(MAKE_DIRECTORY ${directory})
-  get_target_property(type ${target} TYPE)
-  foreach(file IN LISTS arg_FILES)
-    get_filename_component(path ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
-    get_filename_component(stem ${file} NAME_WE)
-    set(headers)
-    foreach(bound IN LISTS arg_BOUNDS)
-      foreach(real IN LISTS arg_REALS)
-        list(APPEND headers ${directory}/${stem}.${bound}.${real}.h)
-      endforeach()
-    endforeach()
-    set(outputs ${headers})
-    set(options)
-    if(arg_TESTS)
-      list(APPEND outputs ${directory}/${stem}.test.cpp)
-      set(options --tests)
-    endif()
-    add_custom_command(
-      OUTPUT ${outputs}
-      COMMAND tightrope::compiler compile ${path} --bound ${bounds} --real ${reals} ${options}
-              --depfile ${directory}/${stem}.d -o ${directory}
-      DEPENDS ${path} tightrope::compiler
-      DEPFILE ${directory}/${stem}.d
-      COMMENT "tightrope compile ${stem}.pred"
-      VERBATIM)
-    string(MAKE_C_IDENTIFIER ${stem} id)
-    add_custom_target(${target}_${id}_predicates DEPENDS ${outputs})
-    add_dependencies(${target} ${target}_${id}_predicates)
-    if(NOT type STREQUAL INTERFACE_LIBRARY)
-      target_sources(${target} PRIVATE ${headers})
-    endif()
-    if(arg_TESTS)
-      find_package(GTest REQUIRED)
-      add_executable(${target}_${id}_generated_tests ${directory}/${stem}.test.cpp ${headers})
-      target_include_directories(${target}_${id}_generated_tests PRIVATE ${directory})
-      target_link_libraries(${target}_${id}_generated_tests PRIVATE tightrope::runtime GTest::gtest_main)
-      target_compile_features(${target}_${id}_generated_tests PRIVATE cxx_std_20)
-      add_test(NAME generated.${target}.${id} COMMAND ${target}_${id}_generated_tests)
-      set_tests_properties(generated.${target}.${id} PROPERTIES LABELS generated)
+  foreach(bound IN LISTS arg_BOUNDS)
+    if(NOT bound MATCHES "^(float|safe|tight)$")
+      message(FATAL_ERROR "tightrope_add_predicates: unknown bound ${bound} (float, safe or tight)")
     endif()
   endforeach()
+  foreach(real IN LISTS arg_REALS)
+    if(NOT real MATCHES "^(double|float)$")
+      message(FATAL_ERROR "tightrope_add_predicates: unknown scalar type ${real} (double or float)")
+    endif()
+  endforeach()
+  get_target_property(type ${target} TYPE)
+  set(directory ${CMAKE_CURRENT_BINARY_DIR}/${target}_predicates)
+  foreach(file IN LISTS arg_FILES)
+    _tightrope_compile_predicate(${target} ${type} ${directory} ${file} "${arg_BOUNDS}" "${arg_REALS}" "${arg_TESTS}")
+  endforeach()
   if(type STREQUAL INTERFACE_LIBRARY)
-    target_include_directories(${target} INTERFACE ${directory})
+    target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${directory}>)
     target_link_libraries(${target} INTERFACE tightrope::runtime)
   else()
     target_include_directories(${target} PRIVATE ${directory})
     target_link_libraries(${target} PRIVATE tightrope::runtime)
   endif()
 endfunction()
+
+# One file of the above: a command that compiles it, a target that runs the command before `target` is built, and tests.
+function(_tightrope_compile_predicate target type directory file bounds reals tests)
+  get_filename_component(path ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+  get_filename_component(stem ${file} NAME_WLE)
+  string(MAKE_C_IDENTIFIER ${stem} id)
+  set(headers)
+  foreach(bound IN LISTS bounds)
+    foreach(real IN LISTS reals)
+      list(APPEND headers ${directory}/${stem}.${bound}.${real}.h)
+    endforeach()
+  endforeach()
+  set(outputs ${headers})
+  set(options)
+  if(tests)
+    list(APPEND outputs ${directory}/${stem}.test.cpp)
+    set(options --tests)
+  endif()
+  list(JOIN bounds "," bounds)
+  list(JOIN reals "," reals)
+  file(MAKE_DIRECTORY ${directory})
+  add_custom_command(
+    OUTPUT ${outputs}
+    COMMAND tightrope::compiler compile ${path} --bound ${bounds} --real ${reals} ${options}
+            --depfile ${directory}/${stem}.d -o ${directory}
+    DEPENDS ${path} tightrope::compiler
+    DEPFILE ${directory}/${stem}.d
+    COMMENT "tightrope compile ${stem}.pred"
+    VERBATIM)
+  add_custom_target(${target}_${id}_predicates DEPENDS ${outputs})
+  add_dependencies(${target} ${target}_${id}_predicates)
+  if(NOT tests)
+    return()
+  endif()
+  if(NOT TARGET GTest::gtest_main)
+    find_package(GTest REQUIRED)
+  endif()
+  set(executable ${target}_${id}_generated_tests)
+  add_executable(${executable} ${directory}/${stem}.test.cpp)
+  add_dependencies(${executable} ${target}_${id}_predicates)
+  target_include_directories(${executable} PRIVATE ${directory})
+  target_link_libraries(${executable} PRIVATE tightrope::runtime GTest::gtest_main)
+  target_compile_features(${executable} PRIVATE cxx_std_20)
+  if(COMMAND tightrope_warnings)  # in Tightrope's own build: generated code is held to the same warnings
+    tightrope_warnings(${executable})
+  endif()
+  add_test(NAME generated.${target}.${id} COMMAND ${executable})
+  set_tests_properties(generated.${target}.${id} PROPERTIES LABELS generated)
+endfunction()
+
+cmake_policy(POP)
