@@ -1,25 +1,29 @@
-// Does a moving point keep to its side of a fixed wall? The geometry is in side_of_line.pred.
+// Does a point stay on its side of a swinging door? The geometry is in side_of_door.pred.
 #include <cstdio>
 
-#include "side_of_line.tight.double.h"
+#include "side_of_door.float.double.h"
+#include "side_of_door.tight.double.h"
 
 using tightrope::Sign;
 
-// -1 or +1: the point is on this side during the whole step, which is proven. 0: it crosses, or touches, or is too close to tell.
-int proven_side(const double* p_t0, const double* p_t1, const double* a, const double* b) {
-  using side_of_wall = tightrope::generated::side_of_wall<tightrope::bound::tight, double>;
-  const auto [area] = side_of_wall::evaluate(p_t0, p_t1, a, b);
-  const Sign first = sign(area[0]);
-  for (const auto& coefficient : area) {
+const double hinge[] = {0.8, 0.1}, handle_t0[] = {2.6, 0.1}, handle_t1[] = {2.6, 1.9};  // the door, at t = 0 and t = 1
+
+// +1 or -1: left or right of the door during the whole step. 0: it crosses, or touches, or is too close to tell.
+template <class Bound>
+int side(const double* p_t0, const double* p_t1) {
+  using tightrope::generated::side_of_door;
+  const auto result = side_of_door<Bound, double>::evaluate(p_t0, p_t1, hinge, hinge, handle_t0, handle_t1);
+  const Sign first = sign(result.area[0]);
+  for (const auto& coefficient : result.area) {
     if (sign(coefficient) != first) return 0;
   }
   return static_cast<int>(first);
 }
 
 int main() {
-  const double a[] = {0.0, 0.0}, b[] = {0.3, 0.1};                          // the wall
-  const double above[] = {0.1, 0.4}, near[] = {0.6, 0.2 + 0x1p-50}, on[] = {0.6, 0.2}, below[] = {0.5, -0.2};
-  std::printf("stays above:            %+d\n", proven_side(above, near, a, b));
-  std::printf("ends up on the wall:    %+d\n", proven_side(above, on, a, b));
-  std::printf("passes through:         %+d\n", proven_side(above, below, a, b));
+  const double start[] = {1.1, 1.4}, left[] = {1.1, 0.9}, through[] = {1.1, 0.4};  // `through` ends 1e-17 beyond the door
+  std::printf("ends left of the door:  in double %+d, with its bound %+d\n", side<tightrope::bound::none>(start, left),
+              side<tightrope::bound::tight>(start, left));
+  std::printf("ends beyond the door:   in double %+d, with its bound %+d\n", side<tightrope::bound::none>(start, through),
+              side<tightrope::bound::tight>(start, through));
 }

@@ -48,6 +48,6 @@ endforeach()
 build_and_test(${SCRATCH}/projects/first_predicate ${SCRATCH}/build/first_predicate 2)
 build_and_test(${SCRATCH}/projects/ccd_query ${SCRATCH}/build/ccd_query 1)
 
-run(${prefix}/bin/tightrope compile ${SCRATCH}/projects/first_predicate/side_of_line.pred --bound all --real double --tests
+run(${prefix}/bin/tightrope compile ${SCRATCH}/projects/first_predicate/side_of_door.pred --bound all --real double --tests
     -o ${SCRATCH}/by_hand)
 build_and_test(${SCRATCH}/by_hand ${SCRATCH}/build/by_hand 1)
