@@ -11,8 +11,8 @@ namespace tightrope::codegen {
 enum class BoundMode { none, safe, tight };
 enum class Precision { binary64, binary32 };
 
-const char* name(BoundMode mode);             ///< "float", "safe", "tight"
-const char* name(Precision precision);        ///< "double", "float"
+const char* name(BoundMode mode);       ///< "float", "safe", "tight"
+const char* name(Precision precision);  ///< "double", "float"
 
 /// Value and bound of one output element: |value - exact| <= bound, evaluated as floating point in the graph's order.
 struct BoundedNode {
@@ -25,7 +25,7 @@ struct OutputBound {
   std::vector<BoundedNode> elements;  ///< as Output::nodes
   int roundings = 0;                  ///< safe: k; else 0
   std::string magnitude;              ///< safe: B as text, "6 b_x b_y b_z"; else empty
-  std::string assumption;             ///< what the bound rests on beyond the model, e.g. the declared ranges; may be empty
+  std::string assumption;  ///< what the bound rests on beyond the model, e.g. the declared ranges; may be empty
 };
 
 struct BoundedStage {
@@ -55,8 +55,8 @@ enum class Weakening {
   drop_product_of_errors,        ///< R_a R_b
 };
 
-/// Adds bounds to a predicate; errors (an operation without a bound in this mode, a constant that the precision does not
-/// hold) go to `diagnostics` with the place of the output.
+/// Adds bounds to a predicate; errors (an operation without a bound in this mode, a constant that the precision does
+/// not hold) go to `diagnostics` with the place of the output.
 BoundedPredicate add_bounds(const dsl::Predicate& predicate, BoundMode mode, Precision precision,
                             dsl::Diagnostics& diagnostics, Weakening weakening = Weakening::none);
 

@@ -1,0 +1,74 @@
+#include "codegen/bounds.h"
+
+#include "codegen/precision.h"
+#include "codegen/safe_bound.h"
+#include "codegen/simplify.h"
+#include "codegen/tight_bound.h"
+
+namespace tightrope::codegen {
+
+const char* name(BoundMode mode) {
+  switch (mode) {
+    case BoundMode::none:
+      return "float";
+    case BoundMode::safe:
+      return "safe";
+    case BoundMode::tight:
+      return "tight";
+  }
+  return "";
+}
+
+const char* name(Precision precision) { return precision == Precision::binary64 ? "double" : "float"; }
+
+namespace {
+
+/// Mode `float`: the values as they are, bounds 0.
+void add_no_bounds(const dsl::Predicate& predicate, BoundedPredicate& result) {
+  result.graph = predicate.graph;
+  const dsl::NodeId zero = result.graph.constant(0);
+  for (const auto& stage : predicate.stages) {
+    BoundedStage& bounded = result.stages.emplace_back();
+    for (const auto& output : stage.outputs) {
+      OutputBound& entry = bounded.outputs.emplace_back();
+      for (const dsl::NodeId id : output.nodes) entry.elements.push_back({id, zero});
+    }
+  }
+}
+
+/// A constant that the precision does not hold would silently be another number.
+bool constants_fit(const dsl::Predicate& predicate, Precision precision, dsl::Diagnostics& diagnostics) {
+  for (dsl::NodeId id = 0; id < predicate.graph.size(); ++id) {
+    const dsl::Node& n = predicate.graph[id];
+    if (n.op == dsl::Op::constant && !representable(n.value, precision)) {
+      diagnostics.error(predicate.stages.front().outputs.front().span,
+                        "predicate `" + predicate.name + "` needs a constant that `float` does not hold exactly",
+                        "write it as a quotient of smaller whole numbers, or compile for --real double");
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+BoundedPredicate add_bounds(const dsl::Predicate& original, BoundMode mode, Precision precision,
+                            dsl::Diagnostics& diagnostics, Weakening weakening) {
+  BoundedPredicate result;
+  const dsl::Predicate predicate = simplify(original);
+  if (!constants_fit(predicate, precision, diagnostics)) return result;
+  switch (mode) {
+    case BoundMode::none:
+      add_no_bounds(predicate, result);
+      break;
+    case BoundMode::safe:
+      add_safe_bounds(predicate, precision, diagnostics, weakening, result);
+      break;
+    case BoundMode::tight:
+      add_tight_bounds(predicate, precision, diagnostics, weakening, result);
+      break;
+  }
+  return result;
+}
+
+}  // namespace tightrope::codegen

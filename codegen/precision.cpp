@@ -1,0 +1,51 @@
+#include "codegen/precision.h"
+
+#include <cmath>
+#include <limits>
+
+namespace tightrope::codegen {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr FloatFormat binary64{0x1p-53, 0x1p-1074, 0x1p-20, 0x1p-920, 0x1.fffffffffffffp+1023};
+constexpr FloatFormat binary32{0x1p-24, 0x1p-149, 0x1p-10, 0x1p-110, 0x1.fffffep+127};
+}  // namespace
+
+const FloatFormat& format(Precision precision) { return precision == Precision::binary64 ? binary64 : binary32; }
+
+double round_up(double value, Precision precision) {
+  if (precision == Precision::binary64) return value;
+  const float narrowed = static_cast<float>(value);
+  if (static_cast<double>(narrowed) >= value) return static_cast<double>(narrowed);
+  return static_cast<double>(std::nextafter(narrowed, std::numeric_limits<float>::infinity()));
+}
+
+bool representable(double value, Precision precision) {
+  return precision == Precision::binary64 || static_cast<double>(static_cast<float>(value)) == value;
+}
+
+// The residual of a product is exact in an fma unless it underflows, and the one of a sum by TwoSum; where a result is
+// not proved exact it is moved up by one ulp, which is never too little: rounding to nearest errs by at most half of
+// it.
+double mul_up(double x, double y) {
+  const double p = x * y;
+  if (p > 0x1p-960 && std::fma(x, y, -p) <= 0) return p;
+  if (x == 0 || y == 0) return 0;
+  return std::nextafter(p, infinity);
+}
+
+double add_up(double x, double y) {
+  const double s = x + y;
+  const double x_part = s - y;
+  const double error = (x - x_part) + (y - (s - x_part));
+  return error <= 0 ? s : std::nextafter(s, infinity);
+}
+
+double div_up(double x, double y) {
+  const double q = x / y;
+  if (x == 0) return 0;
+  if (q > 0x1p-900 && std::fma(q, y, -x) >= 0) return q;
+  return std::nextafter(q, infinity);
+}
+
+}  // namespace tightrope::codegen

@@ -1,0 +1,29 @@
+#pragma once
+/// The constants of a floating-point format that error bounds are made of (MATH 4.1, 4.3, 4.7).
+
+#include "codegen/bounds.h"
+
+namespace tightrope::codegen {
+
+struct FloatFormat {
+  double unit_roundoff;  ///< u: |fl(x) - x| <= u |fl(x)| barring underflow
+  double eta;            ///< the smallest positive subnormal; a rounding in the subnormal range errs by at most eta / 2
+  double slack;        ///< delta: rules use u (1 + delta) in place of u, which pays for the roundings inside the bound
+  double floor_limit;  ///< a compile-time underflow floor above this would spoil the bounds: use run-time terms instead
+  double largest;      ///< the largest finite number
+};
+
+const FloatFormat& format(Precision precision);
+
+/// `value` rounded up to a number that the format holds (and never below the exact real it stands for if `value` is).
+double round_up(double value, Precision precision);
+
+/// Whether the format holds `value` exactly.
+bool representable(double value, Precision precision);
+
+/// x * y and x + y and x / y of non-negative numbers, never below the exact result.
+double mul_up(double x, double y);
+double add_up(double x, double y);
+double div_up(double x, double y);
+
+}  // namespace tightrope::codegen

@@ -1,0 +1,36 @@
+#pragma once
+/// SafeBound: a pair (B, k) for every value, known at compile time but for run-time maxima of groups of inputs [Wang
+/// 2014].
+///
+/// For a value f computed as f^:  |f| <= B  and  |f^ - f| <= B (F - 1) + A  with  F = (1 + u)^k  (MATH 4.5).
+///
+///     exact input   k = 0, B = the maximum of its group;   constant  k = 0, B = |c|
+///     x +- y of two inputs   k = 1, B = the maximum of the computed differences of its group (times 1 + 2u)
+///     sum           B = Ba + Bb, k = max(ka, kb) + 1
+///     product       B = Ba Bb,   k = ka + kb + 1
+///     quotient      B = Ba / |c|, k = ka + 1 (c an exact constant)
+///     max, min      B = max(Ba, Bb), k = max(ka, kb);   negation, |.|, 2^k: exact
+///
+/// Proof by induction; product: |f^ g^ - f g| <= |f^| |g^ - g| + |g| |f^ - f| <= Bf Bg (Ff (Fg - 1) + Ff - 1), and a
+/// rounding turns F - 1 into F (1 + u) - 1.
+///
+/// *Bounded inputs* come as (value, bound). Of their group, B = max(|value| + bound) and rho = max(bound) / B: each
+/// such input brings a factor 1 + rho into F as a rounding brings 1 + u, so a value of degree d in the group has F = (1
+/// + u)^k (1 + rho)^d. F - 1 <= F ln F <= F (k u + d rho) for all rho >= 0, which is what is evaluated.
+///
+/// *Underflow* (A). With m = max(1, all maxima), B <= S m^d and A <= C eta m^p: a product adds (Sf Cg + Sg Cf + 1) to
+/// C. Where all inputs have a declared range, A is a compile-time constant, as in lemma C of tight_bound.h.
+///
+/// *Groups*: computed differences per coordinate axis; exact vectors used directly per axis; every scalar parameter and
+/// every bounded parameter on its own. The roundings of the maxima, of B and of the product are paid by a factor 1 +
+/// 2^-20 (2^-10 in single precision), which is enough for 2^31 (2^12) of them.
+
+#include "codegen/bounds.h"
+
+namespace tightrope::codegen {
+
+/// As add_tight_bounds.
+void add_safe_bounds(const dsl::Predicate& predicate, Precision precision, dsl::Diagnostics& diagnostics,
+                     Weakening weakening, BoundedPredicate& result);
+
+}  // namespace tightrope::codegen
