@@ -31,16 +31,21 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/installed)
 set(prefix ${SCRATCH}/moved)
 file(RENAME ${SCRATCH}/installed ${prefix})
 
-file(GLOB_RECURSE package_files ${prefix}/*.cmake ${prefix}/*.h)
-foreach(file IN LISTS package_files)
-  file(STRINGS ${file} lines)
-  foreach(path IN ITEMS ${SOURCE}/ ${BUILD}/ ${SCRATCH}/)
-    string(FIND "${lines}" "${path}" found)
-    if(NOT found EQUAL -1)
-      message(FATAL_ERROR "${file} names ${path}")
-    endif()
+# Fails if one of the files names the repository, the build or the place of installation.
+function(expect_no_paths)
+  foreach(file IN LISTS ARGN)
+    file(READ ${file} text)
+    foreach(path IN ITEMS ${SOURCE}/ ${BUILD}/ ${SCRATCH}/installed)
+      string(FIND "${text}" "${path}" found)
+      if(NOT found EQUAL -1)
+        message(FATAL_ERROR "${file} names ${path}")
+      endif()
+    endforeach()
   endforeach()
-endforeach()
+endfunction()
+
+file(GLOB_RECURSE package_files ${prefix}/*.cmake ${prefix}/*.h)
+expect_no_paths(${package_files})
 
 foreach(example IN ITEMS first_predicate ccd_query)
   file(COPY ${SOURCE}/examples/${example} DESTINATION ${SCRATCH}/projects)  # away from the repository
@@ -50,4 +55,5 @@ build_and_test(${SCRATCH}/projects/ccd_query ${SCRATCH}/build/ccd_query 1)
 
 run(${prefix}/bin/tightrope compile ${SCRATCH}/projects/first_predicate/side_of_door.pred --bound all --real double --tests
     -o ${SCRATCH}/by_hand)
+expect_no_paths(${SCRATCH}/by_hand/CMakeLists.txt)  # the runtime it uses is the one that was installed
 build_and_test(${SCRATCH}/by_hand ${SCRATCH}/build/by_hand 1)
