@@ -26,6 +26,16 @@ TIGHTROPE_FUNCTION constexpr Sign sign(const Bounded<Real>& x) {
   return x.value > x.bound ? Sign::positive : x.value < -x.bound ? Sign::negative : Sign::uncertain;
 }
 
+/// What generated code answers where the declared range of an input is broken: no value, no bound, no sign.
+template <class Real>
+TIGHTROPE_FUNCTION constexpr void make_uncertain(Bounded<Real>& x) {
+  x = {static_cast<Real>(__builtin_nan("")), static_cast<Real>(__builtin_inf())};
+}
+template <class Element, decltype(sizeof(0)) N>
+TIGHTROPE_FUNCTION constexpr void make_uncertain(Element (&array)[N]) {
+  for (Element& element : array) make_uncertain(element);
+}
+
 /// Tags that select a generated predicate's bound mode.
 namespace bound {
 struct none {};   ///< mode `float`: no bound, the unsafe baseline

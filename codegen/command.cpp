@@ -1,0 +1,214 @@
+#include "codegen/command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "codegen/compile.h"
+#include "codegen/report.h"
+
+namespace tightrope::codegen {
+namespace {
+
+constexpr int done = 0;
+constexpr int bad_program = 1;
+constexpr int bad_usage = 2;
+
+int usage_error(const std::string& message) {
+  fmt::print(stderr, "tightrope: error: {}\n", message);
+  return bad_usage;
+}
+
+int program_error(const dsl::Diagnostics& diagnostics, const dsl::SourceMap& sources) {
+  const std::string text = diagnostics.render(sources);
+  std::fputs(text.c_str(), stderr);
+  if (!text.empty() && text.back() != '\n') std::fputc('\n', stderr);
+  return bad_program;
+}
+
+bool readable(const std::string& file) {
+  std::error_code error;
+  return !std::filesystem::is_directory(file, error) && std::ifstream(file).good();
+}
+
+template <class Value>
+struct Choice {
+  const char* name;
+  std::vector<Value> values;
+};
+
+/// The values that a comma-separated list of names selects, each once, in the order of the choices.
+template <class Value>
+std::vector<Value> selected(const std::string& option, const std::string& list,
+                            const std::vector<Choice<Value>>& choices, std::string& error) {
+  std::string accepted;
+  for (const auto& choice : choices) accepted += (accepted.empty() ? "" : ", ") + std::string(choice.name);
+  std::vector<Value> wanted;
+  std::stringstream stream(list);
+  std::string name;
+  while (std::getline(stream, name, ',')) {
+    const auto choice =
+        std::find_if(choices.begin(), choices.end(), [&](const Choice<Value>& c) { return c.name == name; });
+    if (choice == choices.end()) {
+      error = fmt::format("{}: unknown value '{}' (accepted: {})", option, name, accepted);
+      return {};
+    }
+    wanted.insert(wanted.end(), choice->values.begin(), choice->values.end());
+  }
+  std::vector<Value> result;
+  for (const auto& choice : choices) {
+    for (const Value value : choice.values) {
+      const bool is_wanted = std::find(wanted.begin(), wanted.end(), value) != wanted.end();
+      if (is_wanted && std::find(result.begin(), result.end(), value) == result.end()) result.push_back(value);
+    }
+  }
+  if (result.empty() && error.empty()) error = fmt::format("{}: no value given (accepted: {})", option, accepted);
+  return result;
+}
+
+/// What the options of `compile` and `report` say, as written.
+struct Arguments {
+  std::vector<std::string> files;
+  std::string bound = "tight";
+  std::string real = "double";
+  std::string products = "direct";
+  std::string target = "cpp";
+  std::string directory = ".";
+  std::string depfile;
+  std::string format = "text";
+  bool tests = false;
+  bool measure = false;
+};
+
+std::string interpret(const Arguments& arguments, CompileRequest& request) {
+  std::string error;
+  request.file = arguments.files.front();
+  request.modes = selected<BoundMode>("--bound", arguments.bound,
+                                      {{"float", {BoundMode::none}},
+                                       {"safe", {BoundMode::safe}},
+                                       {"tight", {BoundMode::tight}},
+                                       {"all", {BoundMode::none, BoundMode::safe, BoundMode::tight}}},
+                                      error);
+  if (!error.empty()) return error;
+  request.precisions = selected<Precision>("--real", arguments.real,
+                                           {{"double", {Precision::binary64}},
+                                            {"float", {Precision::binary32}},
+                                            {"all", {Precision::binary64, Precision::binary32}}},
+                                           error);
+  if (!error.empty()) return error;
+  const auto products = selected<dsl::ProductScheme>(
+      "--products", arguments.products,
+      {{"direct", {dsl::ProductScheme::direct}}, {"karatsuba", {dsl::ProductScheme::karatsuba}}}, error);
+  if (!error.empty()) return error;
+  if (products.size() != 1) return "--products: give one value, direct or karatsuba";
+  request.products = products.front();
+  selected<bool>("--target", arguments.target, {{"cpp", {true}}}, error);
+  request.tests = arguments.tests;
+  request.directory = arguments.directory;
+  request.depfile = arguments.depfile;
+  if (error.empty() && !readable(request.file)) error = fmt::format("cannot read {}", request.file);
+  return error;
+}
+
+int run_check(const Arguments& arguments) {
+  int status = done;
+  for (const std::string& file : arguments.files) {
+    if (!readable(file)) return usage_error(fmt::format("cannot read {}", file));
+    dsl::SourceMap sources;
+    dsl::Diagnostics diagnostics;
+    const dsl::Program program = dsl::load_program(file, sources, diagnostics);
+    if (diagnostics.has_errors()) {
+      status = program_error(diagnostics, sources);
+    } else {
+      const std::size_t count = program.predicates.size();
+      fmt::print("{}: {} predicate{}, no errors\n", file, count, count == 1 ? "" : "s");
+    }
+  }
+  return status;
+}
+
+int run_compile(const Arguments& arguments) {
+  CompileRequest request;
+  if (const std::string error = interpret(arguments, request); !error.empty()) return usage_error(error);
+  dsl::SourceMap sources;
+  dsl::Diagnostics diagnostics;
+  const auto files = compile(request, sources, diagnostics);
+  if (!files) return program_error(diagnostics, sources);
+  if (const std::string error = write_files(*files); !error.empty()) return usage_error(error);
+  return done;
+}
+
+int run_report(const Arguments& arguments) {
+  CompileRequest request;
+  if (const std::string error = interpret(arguments, request); !error.empty()) return usage_error(error);
+  if (arguments.format != "text" && arguments.format != "json") {
+    return usage_error(fmt::format("--format: unknown value '{}' (accepted: text, json)", arguments.format));
+  }
+  dsl::SourceMap sources;
+  dsl::Diagnostics diagnostics;
+  const dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
+  if (diagnostics.has_errors()) return program_error(diagnostics, sources);
+  const auto bounded = bounded_programs(program, request.modes, request.precisions, diagnostics);
+  if (diagnostics.has_errors()) return program_error(diagnostics, sources);
+  const std::string text = report(program, bounded, {arguments.format == "json", arguments.measure});
+  std::fputs(text.c_str(), stdout);
+  return done;
+}
+
+void add_file_option(CLI::App& command, Arguments& arguments, bool several) {
+  CLI::Option* option = command.add_option("FILE", arguments.files, "the predicates (.pred)")->required();
+  if (!several) option->expected(1);
+}
+
+void add_program_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("--bound", arguments.bound, "float, safe, tight, a comma list of them, or all")
+      ->capture_default_str();
+  command.add_option("--real", arguments.real, "double, float, double,float or all")->capture_default_str();
+  command
+      .add_option("--products", arguments.products,
+                  "how products of polynomials are computed: direct, or karatsuba (fewer multiplications)")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+int run_command(int argc, const char* const* argv) {
+  Arguments arguments;
+  std::function<int(const Arguments&)> run;
+  CLI::App app("Compiles polynomial geometric predicates into C++ with derived error bounds.", "tightrope");
+  app.set_version_flag("--version", "tightrope " TIGHTROPE_VERSION);
+  app.require_subcommand(1);
+
+  CLI::App& check = *app.add_subcommand("check", "Report the errors of predicates");
+  add_file_option(check, arguments, true);
+  check.callback([&] { run = run_check; });
+
+  CLI::App& compile = *app.add_subcommand("compile", "Write NAME.BOUND.REAL.h for every bound and scalar type");
+  add_file_option(compile, arguments, false);
+  add_program_options(compile, arguments);
+  compile.add_option("--target", arguments.target, "cpp")->capture_default_str();
+  compile.add_flag("--tests", arguments.tests, "also write NAME.test.cpp and a CMakeLists.txt that runs it");
+  compile.add_option("--depfile", arguments.depfile, "write what the outputs depend on, in make's syntax");
+  compile.add_option("-o", arguments.directory, "folder for the outputs")->capture_default_str();
+  compile.callback([&] { run = run_compile; });
+
+  CLI::App& report = *app.add_subcommand("report", "Per output: degree, operation counts, bound");
+  add_file_option(report, arguments, false);
+  add_program_options(report, arguments);
+  report.add_option("--format", arguments.format, "text or json")->capture_default_str();
+  report.add_flag("--measure", arguments.measure, "also compare the bounds with true errors on random inputs");
+  report.callback([&] { run = run_report; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : bad_usage;
+  }
+  return run(arguments);
+}
+
+}  // namespace tightrope::codegen

@@ -1,0 +1,42 @@
+#pragma once
+/// From a .pred file to the texts that `tightrope compile` writes.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "codegen/bounds.h"
+#include "codegen/write_files.h"
+
+namespace tightrope::codegen {
+
+struct CompileRequest {
+  std::string file;
+  std::vector<BoundMode> modes = {BoundMode::tight};
+  std::vector<Precision> precisions = {Precision::binary64};
+  dsl::ProductScheme products = dsl::ProductScheme::direct;
+  bool tests = false;
+  std::filesystem::path directory = ".";
+  std::string depfile;  ///< empty: none
+};
+
+/// A program with the bounds of one mode and precision, predicate by predicate.
+struct BoundedProgram {
+  BoundMode mode = BoundMode::tight;
+  Precision precision = Precision::binary64;
+  std::vector<BoundedPredicate> predicates;
+};
+
+/// Bounds of every predicate in every combination; an error that several combinations share is reported once.
+std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const std::vector<BoundMode>& modes,
+                                             const std::vector<Precision>& precisions, dsl::Diagnostics& diagnostics,
+                                             Weakening weakening = Weakening::none);
+
+/// The files to write; nothing if there are errors. `weakening` is the test hook of codegen/bounds.h.
+std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl::SourceMap& sources,
+                                             dsl::Diagnostics& diagnostics, Weakening weakening = Weakening::none);
+
+/// Targets and prerequisites as make and ninja read them.
+std::string depfile_text(const std::vector<std::string>& targets, const std::vector<std::string>& prerequisites);
+
+}  // namespace tightrope::codegen

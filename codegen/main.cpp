@@ -1,0 +1,3 @@
+#include "codegen/command.h"
+
+int main(int argc, char** argv) { return tightrope::codegen::run_command(argc, argv); }

@@ -1,0 +1,34 @@
+#pragma once
+/// C++ text of bounded predicates; docs/generated-code.md is the contract.
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "codegen/bounds.h"
+
+namespace tightrope::codegen {
+
+/// A predicate and what `add_bounds` made of it.
+struct GeneratedPredicate {
+  const dsl::Predicate* predicate = nullptr;
+  const BoundedPredicate* bounded = nullptr;
+};
+
+struct HeaderOptions {
+  std::string source_name;        ///< "vertex_face.pred", no folder: the same text on every machine
+  std::uint64_t source_hash = 0;  ///< of the file and its imports
+  BoundMode mode = BoundMode::tight;
+  Precision precision = Precision::binary64;
+};
+
+/// The whole header, FILE.BOUND.REAL.h. Deterministic byte for byte; compiles without warnings.
+///
+/// Every product is spelled `product(a, b)`, not only one that is seen to feed a sum: values leave through results and
+/// State, the function is inlined, and the caller's sum must not be fused with it either.
+std::string print_header(std::span<const GeneratedPredicate> predicates, const HeaderOptions& options);
+
+/// "vertex_face.tight.double.h"
+std::string header_name(const std::string& stem, BoundMode mode, Precision precision);
+
+}  // namespace tightrope::codegen

@@ -1,0 +1,37 @@
+#pragma once
+/// In which order, and by which stage's function, the nodes of a graph are computed.
+
+#include <vector>
+
+#include "codegen/bounds.h"
+
+namespace tightrope::codegen {
+
+/// One line of a stage's function.
+struct Step {
+  enum class Kind {
+    load,     ///< `node` was computed by an earlier stage: fetch it
+    compute,  ///< evaluate `node`, whose operands stand before
+    output,   ///< element `element` of output `output` is complete
+  };
+  Kind kind = Kind::compute;
+  dsl::NodeId node = dsl::no_node;
+  int output = 0;
+  int element = 0;
+};
+
+struct StageSchedule {
+  std::vector<Step> steps;
+};
+
+struct Schedule {
+  std::vector<StageSchedule> stages;
+  std::vector<bool> saved;  ///< by node: a later stage needs what the computing stage found
+};
+
+/// Every stage computes what its outputs need and no earlier stage has computed, each node once. The order keeps few
+/// values alive: depth first from the outputs, the operand that needs more registers first [Sethi, Ullman 1970] (a
+/// heuristic on a graph with shared nodes), and an output's value before its bound. Inputs and constants have no steps.
+Schedule schedule(const BoundedPredicate& predicate);
+
+}  // namespace tightrope::codegen
