@@ -1,0 +1,82 @@
+#pragma once
+/// What a query's points look like to the methods: moving points, exact normalisation, and the choice among equal
+/// expressions of the one with the smallest vectors (MATH 1.3, 4.4).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "ccd/rescale.h"
+#include "tightrope/ccd.h"
+
+namespace tightrope::ccd {
+
+inline constexpr int points_per_query = 8;
+inline constexpr int coordinates_per_query = 3 * points_per_query;
+
+/// A point that moves linearly from t0 to t1 (3 coordinates each) over the step.
+struct MovingPoint {
+  const double* t0;
+  const double* t1;
+};
+
+/// Point `index` of a query in the order of `Kind`.
+inline MovingPoint moving_point(const double* points, int index) {
+  return {points + 3 * index, points + 3 * (index + points_per_query / 2)};
+}
+
+/// Largest difference of two points' coordinates at the ends of the step: an estimate that chooses, never decides.
+inline double distance_estimate(MovingPoint x, MovingPoint y) {
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) {
+    largest = max_magnitude(largest, magnitude(x.t0[i] - y.t0[i]));
+    largest = max_magnitude(largest, magnitude(x.t1[i] - y.t1[i]));
+  }
+  return largest;
+}
+
+/// No coordinate exceeds 2^53 in magnitude (false for NaN): then the predicates apply as they are, provided that the
+/// points are not so close together that everything drowns in the floor of underflow.
+inline bool has_moderate_coordinates(const double* points) {
+  constexpr double limit = 0x1p53;
+  bool moderate = true;
+  for (int i = 0; i < coordinates_per_query; ++i) moderate &= magnitude(points[i]) <= limit;
+  return moderate;
+}
+
+/// Largest difference between two of the four points in one coordinate at one end of the step.
+inline double spread(const double* points) {
+  double largest = 0;
+  for (int end = 0; end < 2; ++end) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double* x = points + 12 * end + axis;
+      const auto [low, high] = std::minmax({x[0], x[3], x[6], x[9]});
+      largest = std::max(largest, high - low);
+    }
+  }
+  return largest;
+}
+
+/// Below this spread products of three differences could come near the floor of underflow: normalise first.
+inline constexpr double least_spread = 0x1p-100;
+
+/// A query scaled by a power of two so that its spread lies in [1/2, 1).
+struct NormalizedQuery {
+  std::array<double, coordinates_per_query> points;
+  enum class Kind { scaled, not_finite, coincident } kind;  ///< coincident: the four points are one all the time
+};
+
+/// Exact but for coordinates that fall below 2^-1022: those change by less than 2^-1074, and a product of three
+/// differences, none above 1, by less than 2^-1070 (see `widen`). Where all four points share a coordinate at one end
+/// of the step it becomes 0, an exact translation; a coordinate that differs somewhere is at most 2^54 times the
+/// spread. So no coordinate exceeds 2^54 afterwards.
+NormalizedQuery normalize(const double* points);
+
+/// Adds what `normalize` may have lost to the bounds of polynomials in differences of its coordinates: where the bound
+/// is above 2^-1000 its relative growth of 2^-20 covers it, where it is below the absolute one.
+inline void widen(std::span<Bounded<double>> numbers) {
+  for (Bounded<double>& x : numbers) x.bound = x.bound * 0x1.00001p0 + 0x1p-1000;
+}
+
+}  // namespace tightrope::ccd

@@ -1,0 +1,42 @@
+#include <array>
+
+#include "tightrope/ccd.h"
+
+namespace tightrope::ccd {
+namespace {
+
+constexpr std::array<MethodInfo, 3> all_methods{{
+    {Method::bsc_float, "bsc-float", "none", false, "Wang et al. 2015 (TightCCD), in plain floating point"},
+    {Method::bsc_safe, "bsc-safe", "SafeBound", true, "Wang et al. 2015 (TightCCD), bounds of Wang 2014 (SafeCCD)"},
+    {Method::tight, "tight", "TightBound", true, "Wang et al. 2015 (TightCCD), decision tables repaired"},
+}};
+
+}  // namespace
+
+std::span<const MethodInfo> methods() { return all_methods; }
+
+std::optional<Method> method_by_name(std::string_view name) {
+  for (const MethodInfo& info : all_methods) {
+    if (info.name == name) return info.method;
+  }
+  return std::nullopt;
+}
+
+std::string_view name(Method method) {
+  for (const MethodInfo& info : all_methods) {
+    if (info.method == method) return info.name;
+  }
+  return {};
+}
+
+std::string_view name(Kind kind) {
+  switch (kind) {
+    case Kind::vertex_face:
+      return "vertex-face";
+    case Kind::edge_edge:
+      return "edge-edge";
+  }
+  return {};
+}
+
+}  // namespace tightrope::ccd
