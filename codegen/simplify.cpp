@@ -1,7 +1,9 @@
 #include "codegen/simplify.h"
 
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 namespace tightrope::codegen {
 
@@ -45,9 +47,9 @@ class Rewriter {
     if (is(y, Op::neg)) return add(x, operand(y));
     if (is(x, Op::neg)) return neg(add(operand(x), y));
     if (const auto k = common_scaling(x, y)) return scale(sub(operand(x), operand(y)), *k);
-    // One node for a difference and its negative: the operand made first comes first.
-    if (y < x) return neg(out_.sub(y, x));
-    return out_.sub(x, y);
+    // One node for a difference and its negative: the one that was made first.
+    if (const auto made = differences_.find({y, x}); made != differences_.end()) return neg(made->second);
+    return differences_.emplace(std::pair{x, y}, out_.sub(x, y)).first->second;
   }
 
   NodeId mul(NodeId x, NodeId y) {
@@ -134,6 +136,7 @@ class Rewriter {
   }
 
   Graph& out_;
+  std::map<std::pair<NodeId, NodeId>, NodeId> differences_;
 };
 
 std::vector<bool> reachable(const dsl::Predicate& predicate) {
@@ -153,9 +156,8 @@ std::vector<bool> reachable(const dsl::Predicate& predicate) {
   return used;
 }
 
-}  // namespace
-
-dsl::Predicate simplify(const dsl::Predicate& predicate) {
+/// One rebuild from the outputs: rewritten by the rules, or only copied to leave unreachable nodes behind.
+dsl::Predicate rebuilt(const dsl::Predicate& predicate, bool rewriting) {
   dsl::Predicate result = predicate;
   result.graph = Graph{};
   Rewriter rewrite(result.graph);
@@ -166,6 +168,10 @@ dsl::Predicate simplify(const dsl::Predicate& predicate) {
     if (!used[static_cast<std::size_t>(id)]) continue;
     const Node& n = predicate.graph[id];
     NodeId& to = image[static_cast<std::size_t>(id)];
+    if (!rewriting) {
+      to = result.graph.intern({n.op, at(n.a), at(n.b), at(n.c), n.index, n.value});
+      continue;
+    }
     switch (n.op) {
       case Op::input:
         to = result.graph.input(n.index);
@@ -214,5 +220,9 @@ dsl::Predicate simplify(const dsl::Predicate& predicate) {
   }
   return result;
 }
+
+}  // namespace
+
+dsl::Predicate simplify(const dsl::Predicate& predicate) { return rebuilt(rebuilt(predicate, true), false); }
 
 }  // namespace tightrope::codegen
