@@ -1,0 +1,114 @@
+#include "oracle/root.h"
+
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace tightrope::ccd::oracle {
+namespace {
+
+DyadicTime child(const DyadicTime& lower, bool right) {
+  return {2 * lower.numerator + (right ? 1 : 0), lower.exponent + 1};
+}
+
+/// Whether the positive root of f, its only one, is a root of g too. Both without roots at 0 and 1 in f: their common
+/// divisor has at most that root there, a simple one, so it vanishes there if and only if its ends differ in sign.
+bool share_the_root(const Form& f, const Form& g) {
+  const Form divisor = common_divisor(f, g);
+  return sgn(divisor[0]) * sgn(divisor[divisor.degree()]) < 0;
+}
+
+/// Roots in the open interval of a form on it, square-free and without roots at the interval's ends.
+void isolate(const Form& form, const DyadicTime& lower, std::vector<Root>& found) {
+  const int variations = sign_variations(form);
+  if (variations == 0) return;
+  if (variations == 1) {
+    found.push_back(Root::isolated(lower, form));
+    return;
+  }
+  // A root at the middle is left to neither half.
+  const Form left = left_half(form);
+  const bool middle = sgn(left[left.degree()]) == 0;
+  isolate(without_roots_at_1(left), child(lower, false), found);
+  if (middle) found.push_back(Root::exactly(child(lower, true)));
+  isolate(without_roots_at_0(right_half(form)), child(lower, true), found);
+}
+
+}  // namespace
+
+bool Root::halve() {
+  assert(!exact_);
+  Form left = left_half(form_);
+  const int middle = sgn(left[left.degree()]);
+  const bool right = middle == 0 || middle == sgn(form_[0]);
+  lower_ = child(lower_, right);
+  if (middle == 0) {
+    exact_ = true;
+  } else {
+    form_ = right ? right_half(form_) : std::move(left);
+  }
+  return right;
+}
+
+int Root::sign_at_first_sight(const Form& form) const {
+  return exact_ ? sign_at(form, lower_) : hull_sign(restricted(form, lower_));
+}
+
+int Root::sign(const Form& form) {
+  if (form.is_zero()) return 0;
+  if (exact_) return sign_at(form, lower_);
+  // Most signs show after a few bisections; the common divisor, which alone proves a zero, is computed once after that.
+  // If it does not vanish at the root, `form` does not either, and bisection ends: its limit is a non-zero constant.
+  constexpr int patience = 16;
+  Form local = restricted(form, lower_);
+  for (int step = 0;; ++step) {
+    if (const int s = hull_sign(local); s != 0) return s;
+    if (step == patience && share_the_root(form_, local)) return 0;
+    const bool right = halve();
+    if (exact_) return sign_at(form, lower_);
+    local = right ? right_half(local) : left_half(local);
+  }
+}
+
+int Root::compare(double time) const {
+  int exponent = 0;
+  const double fraction = std::frexp(time, &exponent);  // time = fraction * 2^53 * 2^(exponent - 53)
+  DyadicTime t{mpz_class(std::ldexp(fraction, 53)), static_cast<unsigned long>(53 - exponent)};  // time <= 1: positive
+  // On one scale: both as numerators over 2^(both exponents).
+  t.numerator <<= lower_.exponent;
+  t.numerator -= lower_.numerator << t.exponent;  // (time - lower) * 2^lower.exponent = numerator / 2^exponent
+  if (exact_) return -sgn(t.numerator);
+  if (sgn(t.numerator) <= 0) return 1;
+  if (t.numerator >= mpz_class(1) << t.exponent) return -1;
+  return sign_at(form_, t) * sgn(form_[0]);
+}
+
+Contact Root::enclosure() const {
+  // Doubles in [0, 1] are ordered as their bit patterns are: bisection over those also reaches times near 0 quickly.
+  const auto as_double = [](std::uint64_t pattern) { return std::bit_cast<double>(pattern); };
+  std::uint64_t below = 0, above = std::bit_cast<std::uint64_t>(1.0);
+  if (compare(0.0) == 0) return {0.0, 0.0};
+  if (compare(1.0) == 0) return {1.0, 1.0};
+  while (above - below > 1) {  // as_double(below) < this time < as_double(above)
+    const std::uint64_t middle = below + (above - below) / 2;
+    const int order = compare(as_double(middle));
+    if (order == 0) return {as_double(middle), as_double(middle)};
+    (order > 0 ? below : above) = middle;
+  }
+  return {as_double(below), as_double(above)};
+}
+
+std::vector<Root> roots(const Form& form) {
+  assert(!form.is_zero());
+  std::vector<Root> found;
+  if (sgn(form[0]) == 0) found.push_back(Root::exactly({0, 0}));
+  const Form inner = without_roots_at_0(without_roots_at_1(form));
+  const int variations = sign_variations(inner);
+  if (variations > 0) isolate(variations == 1 ? inner : square_free(inner), {0, 0}, found);
+  if (sgn(form[form.degree()]) == 0) found.push_back(Root::exactly({1, 0}));
+  return found;
+}
+
+}  // namespace tightrope::ccd::oracle
