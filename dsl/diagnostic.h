@@ -43,8 +43,9 @@ class SourceMap {
 
 struct Diagnostic {
   SourceSpan span;
-  std::string message;  ///< one sentence, lower case, no full stop: "cannot add a vector of degree 2 and a scalar of degree 3"
-  std::string hint;     ///< optional: "did you mean `cross`?"
+  std::string
+      message;  ///< one sentence, lower case, no full stop: "cannot add a vector of degree 2 and a scalar of degree 3"
+  std::string hint;  ///< optional: "did you mean `cross`?"
 };
 
 /// The errors of a compilation, in the order found; `render` sorts them by place.
