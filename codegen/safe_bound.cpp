@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "codegen/bound_expression.h"
 #include "codegen/magnitude_polynomial.h"
 #include "codegen/precision.h"
 
@@ -319,10 +320,7 @@ Pair SafeBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
     case Op::max_magnitude:
       break;
   }
-  diagnostics_.error(reporter->span,
-                     std::string("`") + (n.op == Op::div ? "/" : dsl::op_name(n.op)) +
-                         "` has no error bound in mode `safe` yet, except a division by a number",
-                     "use --bound float, or rewrite the output without it");
+  report_unbounded(n, *reporter, BoundMode::safe, diagnostics_);
   return {};
 }
 
@@ -442,19 +440,7 @@ NodeId SafeBounds::with_guards(NodeId bound, NodeId id, const Pair& p) {
 void SafeBounds::run(BoundedPredicate& result) {
   find_leaves();
   const NodeId count = predicate_.graph.size();
-  std::vector<const dsl::Output*> reporters(static_cast<std::size_t>(count), nullptr);
-  for (const auto& stage : predicate_.stages) {
-    for (const auto& output : stage.outputs) {
-      for (const NodeId id : output.nodes) reporters[static_cast<std::size_t>(id)] = &output;
-    }
-  }
-  for (NodeId id = count - 1; id >= 0; --id) {
-    for (const NodeId operand : {predicate_.graph[id].a, predicate_.graph[id].b, predicate_.graph[id].c}) {
-      if (operand == no_node) continue;
-      auto& reporter = reporters[static_cast<std::size_t>(operand)];
-      if (!reporter) reporter = reporters[static_cast<std::size_t>(id)];
-    }
-  }
+  const auto reporters = outputs_of_nodes(predicate_);
   for (NodeId id = 0; id < count && !too_many_monomials_; ++id) {
     pairs_.push_back(rule(id, predicate_.graph[id], reporters[static_cast<std::size_t>(id)]));
     Pair& p = pairs_.back();
@@ -491,8 +477,7 @@ void SafeBounds::run(BoundedPredicate& result) {
 void add_safe_bounds(const dsl::Predicate& predicate, Precision precision, dsl::Diagnostics& diagnostics,
                      Weakening weakening, BoundedPredicate& result) {
   bool one_group = false;
-  bool use_ranges = std::all_of(predicate.parameters.begin(), predicate.parameters.end(),
-                                [](const dsl::Parameter& p) { return p.range.has_value(); });
+  bool use_ranges = all_inputs_have_ranges(predicate);
   for (;;) {
     BoundedPredicate attempt;
     attempt.graph = predicate.graph;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <unordered_map>
 
+#include "codegen/bound_expression.h"
 #include "codegen/precision.h"
 
 namespace tightrope::codegen {
@@ -51,7 +51,8 @@ class TightBounds {
         unit_(format_.unit_roundoff * (weakening == Weakening::halve_unit_roundoff ? 0.5 : 1) * (1 + slack)),
         use_ranges_(use_ranges),
         diagnostics_(diagnostics),
-        graph_(graph) {}
+        graph_(graph),
+        r_(graph, precision) {}
 
   void run(BoundedPredicate& result);
   double roundings() const { return roundings_; }  ///< the largest D + m of all outputs
@@ -72,23 +73,14 @@ class TightBounds {
   double magnitude_limit(const Node& n) const;
 
   // Building r.
-  NodeId base(NodeId id) const;
   std::optional<double> relative(NodeId id) const;
   void add_term(Error& error, Term term) const;
   void add_rounding(Error& error, NodeId id, double coefficient) const {
-    add_term(error, {base(id), true, coefficient});
+    add_term(error, {r_.base(id), true, coefficient});
   }
   void add_underflow(Error& error, double etas) const;
   NodeId materialise(const Error& error);
   void fold_if_shared(NodeId id);
-  NodeId magnitude(NodeId id);
-  NodeId plus(NodeId x, NodeId y);
-  NodeId times(NodeId x, NodeId y);
-  NodeId times_constant(NodeId x, double c);
-  NodeId maximum(NodeId x, NodeId y);
-  double depth(NodeId id) const;
-  NodeId noted(NodeId id, double roundings);
-  NodeId constant(double value) { return graph_.constant(round_up(value, precision_)); }
   NodeId output_bound(NodeId id);
   bool overflow_shows(const Node& n) const;
 
@@ -105,54 +97,16 @@ class TightBounds {
   bool use_ranges_;
   dsl::Diagnostics& diagnostics_;
   Graph& graph_;
+  BoundExpressions r_;
   std::vector<Error> errors_;
   std::vector<double> limits_;  ///< M of lemma C, per value node; only with ranges
   std::vector<int> uses_;
   std::vector<bool> overflow_shows_;
-  std::unordered_map<NodeId, double> depths_;  ///< D of the nodes of r
   double roundings_ = 0;
   double largest_floor_ = 0;
 };
 
-// ------------------------------------------------------------------ expressions for r, with their roundings counted
-
-double TightBounds::depth(NodeId id) const {
-  const auto found = depths_.find(id);
-  return found == depths_.end() ? 0 : found->second;
-}
-
-NodeId TightBounds::noted(NodeId id, double roundings) {
-  double& d = depths_[id];
-  d = std::max(d, roundings);
-  return id;
-}
-
-NodeId TightBounds::magnitude(NodeId id) { return graph_.abs(base(id)); }
-
-NodeId TightBounds::plus(NodeId x, NodeId y) {
-  if (x == no_node) return y;
-  if (y == no_node) return x;
-  return noted(graph_.add(x, y), std::max(depth(x), depth(y)) + 1);
-}
-
-NodeId TightBounds::times(NodeId x, NodeId y) { return noted(graph_.mul(x, y), depth(x) + depth(y) + 1); }
-
-NodeId TightBounds::times_constant(NodeId x, double c) {
-  if (c == 1) return x;
-  int exponent = 0;
-  if (std::frexp(c, &exponent) == 0.5) return noted(graph_.mul_pow2(x, exponent - 1), depth(x));
-  return noted(graph_.mul(x, constant(c)), depth(x) + 1);
-}
-
-NodeId TightBounds::maximum(NodeId x, NodeId y) {
-  return x == y ? x : noted(graph_.binary(Op::max, x, y), std::max(depth(x), depth(y)));
-}
-
-/// |x| of a value and of its negative is one node.
-NodeId TightBounds::base(NodeId id) const {
-  while (graph_[id].op == Op::neg || graph_[id].op == Op::abs) id = graph_[id].a;
-  return id;
-}
+// ------------------------------------------------------------------ sums of terms
 
 void TightBounds::add_term(Error& error, Term term) const {
   if (term.coefficient == 0) return;
@@ -179,12 +133,12 @@ NodeId TightBounds::materialise(const Error& error) {
     NodeId group = no_node;
     const double coefficient = terms[i].coefficient;
     for (; i < terms.size() && terms[i].coefficient == coefficient; ++i) {
-      group = plus(group, terms[i].magnitude ? magnitude(terms[i].node) : terms[i].node);
+      group = r_.plus(group, terms[i].magnitude ? r_.magnitude(terms[i].node) : terms[i].node);
     }
-    total = plus(total, times_constant(group, coefficient));
+    total = r_.plus(total, r_.times_constant(group, coefficient));
   }
   if (!use_ranges_ && error.underflow > 0) {
-    total = plus(total, constant(mul_up(error.underflow, format_.eta / format_.unit_roundoff)));
+    total = r_.plus(total, r_.constant(mul_up(error.underflow, format_.eta / format_.unit_roundoff)));
   }
   return total;
 }
@@ -194,7 +148,7 @@ std::optional<double> TightBounds::relative(NodeId id) const {
   const Error& e = error(id);
   if (!use_ranges_ && e.underflow > 0) return std::nullopt;
   if (e.terms.empty()) return 0;
-  if (e.terms.size() == 1 && e.terms[0].magnitude && e.terms[0].node == base(id)) return e.terms[0].coefficient;
+  if (e.terms.size() == 1 && e.terms[0].magnitude && e.terms[0].node == r_.base(id)) return e.terms[0].coefficient;
   return std::nullopt;
 }
 
@@ -216,7 +170,7 @@ Error TightBounds::leaf(const Node& n) {
   if (weakened(Weakening::drop_input_bound)) return {};
   const NodeId bound = graph_.input(n.index + static_cast<std::int32_t>(predicate_.slots.size()));
   Error e;
-  const NodeId r = noted(graph_.mul(bound, constant((1 + slack_) / format_.unit_roundoff)), 1);
+  const NodeId r = r_.times_constant(bound, (1 + slack_) / format_.unit_roundoff);
   e.terms.push_back({r, false, 1});
   return e;
 }
@@ -291,7 +245,7 @@ Error TightBounds::half_relative_product(NodeId id, NodeId a, double relative_a,
       e = scaled(error(b), std::abs(graph_[a].value));
       e.slack_used = 0;
     } else {
-      add_term(e, {times(magnitude(a), materialise(error(b))), false, 1});
+      add_term(e, {r_.times(r_.magnitude(a), materialise(error(b))), false, 1});
     }
   }
   if (weakened(dropped_a)) relative_a = 0;
@@ -305,10 +259,10 @@ Error TightBounds::general_product(NodeId id, const Node& n) {
   const NodeId ra = materialise(error(n.a));
   const NodeId rb = materialise(error(n.b));
   Error e;
-  NodeId widened = magnitude(n.b);  // |Lb| + u+ rb
-  if (!weakened(Weakening::drop_product_of_errors)) widened = plus(widened, times_constant(rb, unit_));
-  if (!weakened(Weakening::drop_second_factor_error)) add_term(e, {times(magnitude(n.a), rb), false, 1});
-  if (!weakened(Weakening::drop_first_factor_error)) add_term(e, {times(ra, widened), false, 1});
+  NodeId widened = r_.magnitude(n.b);  // |Lb| + u+ rb
+  if (!weakened(Weakening::drop_product_of_errors)) widened = r_.plus(widened, r_.times_constant(rb, unit_));
+  if (!weakened(Weakening::drop_second_factor_error)) add_term(e, {r_.times(r_.magnitude(n.a), rb), false, 1});
+  if (!weakened(Weakening::drop_first_factor_error)) add_term(e, {r_.times(ra, widened), false, 1});
   if (!weakened(Weakening::drop_rounding_of_products)) add_rounding(e, id, 1);
   return e;
 }
@@ -337,7 +291,7 @@ Error TightBounds::extremum(const Node& n) {
   const NodeId ra = materialise(ea);
   const NodeId rb = materialise(eb);
   if (ra != no_node || rb != no_node) {
-    e.terms.push_back({ra == no_node ? rb : rb == no_node ? ra : maximum(ra, rb), false, 1});
+    e.terms.push_back({ra == no_node ? rb : rb == no_node ? ra : r_.maximum(ra, rb), false, 1});
   }
   e.underflow = use_ranges_ ? std::max(ea.underflow, eb.underflow) : 0;
   e.slack_used = std::max(ea.slack_used, eb.slack_used);
@@ -376,10 +330,7 @@ Error TightBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
     case Op::max_magnitude:
       break;
   }
-  diagnostics_.error(reporter->span,
-                     std::string("`") + (n.op == Op::div ? "/" : dsl::op_name(n.op)) +
-                         "` has no error bound in mode `tight` yet, except a division by a number",
-                     "use --bound float, or rewrite the output without it");
+  report_unbounded(n, *reporter, BoundMode::tight, diagnostics_);
   return {};
 }
 
@@ -450,17 +401,17 @@ bool TightBounds::overflow_shows(const Node& n) const {
 NodeId TightBounds::output_bound(NodeId id) {
   const Error& e = error(id);
   NodeId bound = no_node;
-  if (const NodeId r = materialise(e); r != no_node) bound = times_constant(r, unit_);
+  if (const NodeId r = materialise(e); r != no_node) bound = r_.times_constant(r, unit_);
   if (use_ranges_ && e.underflow > 0) {
     const double floor = mul_up(mul_up(e.underflow + 2, format_.eta), 1 + 0x1p-10);
     largest_floor_ = std::max(largest_floor_, floor);
-    bound = plus(bound, constant(floor));
+    bound = r_.plus(bound, r_.constant(floor));
   }
-  roundings_ = std::max(roundings_, (bound == no_node ? 0 : depth(bound)) + e.slack_used);
+  roundings_ = std::max(roundings_, (bound == no_node ? 0 : r_.roundings(bound)) + e.slack_used);
   // x - x is 0 for a finite x, else NaN: an infinite input gives no sign.
   if (bound == no_node || !overflow_shows_[static_cast<std::size_t>(id)]) {
-    const NodeId finite = graph_.sub(id, id);
-    bound = bound == no_node ? finite : plus(bound, finite);
+    const NodeId finite = r_.zero_if_finite(id);
+    bound = bound == no_node ? finite : r_.plus(bound, finite);
   }
   return bound;
 }
@@ -468,24 +419,17 @@ NodeId TightBounds::output_bound(NodeId id) {
 void TightBounds::run(BoundedPredicate& result) {
   const NodeId count = predicate_.graph.size();
   uses_.assign(static_cast<std::size_t>(count), 0);
-  std::vector<const dsl::Output*> reporters(static_cast<std::size_t>(count), nullptr);
   for (const auto& stage : predicate_.stages) {
     for (const auto& output : stage.outputs) {
-      for (const NodeId id : output.nodes) {
-        ++uses_[static_cast<std::size_t>(id)];
-        reporters[static_cast<std::size_t>(id)] = &output;
-      }
+      for (const NodeId id : output.nodes) ++uses_[static_cast<std::size_t>(id)];
     }
   }
-  for (NodeId id = count - 1; id >= 0; --id) {
-    const Node& n = predicate_.graph[id];
-    for (const NodeId operand : {n.a, n.b, n.c}) {
-      if (operand == no_node) continue;
-      ++uses_[static_cast<std::size_t>(operand)];
-      auto& reporter = reporters[static_cast<std::size_t>(operand)];
-      if (!reporter) reporter = reporters[static_cast<std::size_t>(id)];
+  for (NodeId id = 0; id < count; ++id) {
+    for (const NodeId operand : {graph_[id].a, graph_[id].b, graph_[id].c}) {
+      if (operand != no_node) ++uses_[static_cast<std::size_t>(operand)];
     }
   }
+  const auto reporters = outputs_of_nodes(predicate_);
   errors_.reserve(static_cast<std::size_t>(count));
   for (NodeId id = 0; id < count; ++id) {
     const Node n = graph_[id];
@@ -503,11 +447,6 @@ void TightBounds::run(BoundedPredicate& result) {
       if (use_ranges_) entry.assumption = "inputs within their declared ranges";
     }
   }
-}
-
-bool all_inputs_have_ranges(const dsl::Predicate& predicate) {
-  return std::all_of(predicate.parameters.begin(), predicate.parameters.end(),
-                     [](const dsl::Parameter& p) { return p.range.has_value(); });
 }
 
 }  // namespace

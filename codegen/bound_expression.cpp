@@ -1,0 +1,83 @@
+#include "codegen/bound_expression.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "codegen/precision.h"
+
+namespace tightrope::codegen {
+
+using dsl::no_node;
+using dsl::NodeId;
+using dsl::Op;
+
+NodeId BoundExpressions::base(NodeId id) const {
+  while (graph_[id].op == Op::neg || graph_[id].op == Op::abs) id = graph_[id].a;
+  return id;
+}
+
+double BoundExpressions::roundings(NodeId id) const {
+  const auto found = roundings_.find(id);
+  return found == roundings_.end() ? 0 : found->second;
+}
+
+/// A node may be a value and a bound at once (both are hash-consed): the larger count stands.
+NodeId BoundExpressions::noted(NodeId id, double roundings) {
+  double& d = roundings_[id];
+  d = std::max(d, roundings);
+  return id;
+}
+
+NodeId BoundExpressions::constant(double value) { return graph_.constant(round_up(value, precision_)); }
+
+NodeId BoundExpressions::plus(NodeId x, NodeId y) {
+  if (x == no_node) return y;
+  if (y == no_node) return x;
+  return noted(graph_.add(x, y), std::max(roundings(x), roundings(y)) + 1);
+}
+
+NodeId BoundExpressions::times(NodeId x, NodeId y) { return noted(graph_.mul(x, y), roundings(x) + roundings(y) + 1); }
+
+NodeId BoundExpressions::times_constant(NodeId x, double c) {
+  if (c == 1) return x;
+  int exponent = 0;
+  if (std::frexp(c, &exponent) == 0.5) return noted(graph_.mul_pow2(x, exponent - 1), roundings(x));
+  return noted(graph_.mul(x, constant(c)), roundings(x) + 1);
+}
+
+NodeId BoundExpressions::maximum(NodeId x, NodeId y) {
+  return x == y ? x : noted(graph_.binary(Op::max, x, y), std::max(roundings(x), roundings(y)));
+}
+
+std::vector<const dsl::Output*> outputs_of_nodes(const dsl::Predicate& predicate) {
+  std::vector<const dsl::Output*> result(static_cast<std::size_t>(predicate.graph.size()), nullptr);
+  for (const auto& stage : predicate.stages) {
+    for (const auto& output : stage.outputs) {
+      for (const NodeId id : output.nodes) result[static_cast<std::size_t>(id)] = &output;
+    }
+  }
+  for (NodeId id = predicate.graph.size() - 1; id >= 0; --id) {
+    const dsl::Node& n = predicate.graph[id];
+    for (const NodeId operand : {n.a, n.b, n.c}) {
+      if (operand == no_node) continue;
+      auto& output = result[static_cast<std::size_t>(operand)];
+      if (!output) output = result[static_cast<std::size_t>(id)];
+    }
+  }
+  return result;
+}
+
+bool all_inputs_have_ranges(const dsl::Predicate& predicate) {
+  return std::all_of(predicate.parameters.begin(), predicate.parameters.end(),
+                     [](const dsl::Parameter& p) { return p.range.has_value(); });
+}
+
+void report_unbounded(const dsl::Node& node, const dsl::Output& output, BoundMode mode, dsl::Diagnostics& diagnostics) {
+  const std::string operation = node.op == Op::div ? "/" : dsl::op_name(node.op);
+  diagnostics.error(output.span,
+                    "`" + operation + "` has no error bound in mode `" + name(mode) +
+                        (node.op == Op::div ? "`, except a division by a number" : "`"),
+                    "compile it with --bound float, or rewrite the output without it");
+}
+
+}  // namespace tightrope::codegen
