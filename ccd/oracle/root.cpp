@@ -20,20 +20,33 @@ bool share_the_root(const Form& f, const Form& g) {
   return sgn(divisor[0]) * sgn(divisor[divisor.degree()]) < 0;
 }
 
-/// Roots in the open interval of a form on it, square-free and without roots at the interval's ends.
-void isolate(const Form& form, const DyadicTime& lower, std::vector<Root>& found) {
-  const int variations = sign_variations(form);
-  if (variations == 0) return;
-  if (variations == 1) {
-    found.push_back(Root::isolated(lower, form));
-    return;
+/// Adds the roots of a square-free form without roots at 0 and 1, in ascending order, by bisection until Descartes'
+/// rule tells: one or no sign variation. An explicit stack, because close roots of large numbers lie thousands of
+/// levels deep.
+void isolate(const Form& whole, std::vector<Root>& found) {
+  struct Part {
+    DyadicTime lower;
+    Form form;     // on the part's interval, without roots at its ends
+    bool is_root;  // the part is the point `lower`, a root
+  };
+  std::vector<Part> pending;
+  pending.push_back({{0, 0}, whole, false});
+  while (!pending.empty()) {
+    const Part part = std::move(pending.back());
+    pending.pop_back();
+    if (part.is_root) {
+      found.push_back(Root::exactly(part.lower));
+      continue;
+    }
+    const int variations = sign_variations(part.form);
+    if (variations == 1) found.push_back(Root::isolated(part.lower, part.form));
+    if (variations <= 1) continue;
+    const Form left = left_half(part.form);
+    const DyadicTime middle = child(part.lower, true);
+    pending.push_back({middle, without_roots_at_0(right_half(part.form)), false});
+    if (sgn(left[left.degree()]) == 0) pending.push_back({middle, Form(), true});
+    pending.push_back({child(part.lower, false), without_roots_at_1(left), false});
   }
-  // A root at the middle is left to neither half.
-  const Form left = left_half(form);
-  const bool middle = sgn(left[left.degree()]) == 0;
-  isolate(without_roots_at_1(left), child(lower, false), found);
-  if (middle) found.push_back(Root::exactly(child(lower, true)));
-  isolate(without_roots_at_0(right_half(form)), child(lower, true), found);
 }
 
 }  // namespace
@@ -106,7 +119,7 @@ std::vector<Root> roots(const Form& form) {
   if (sgn(form[0]) == 0) found.push_back(Root::exactly({0, 0}));
   const Form inner = without_roots_at_0(without_roots_at_1(form));
   const int variations = sign_variations(inner);
-  if (variations > 0) isolate(variations == 1 ? inner : square_free(inner), {0, 0}, found);
+  if (variations > 0) isolate(variations == 1 ? inner : square_free(inner), found);
   if (sgn(form[form.degree()]) == 0) found.push_back(Root::exactly({1, 0}));
   return found;
 }
