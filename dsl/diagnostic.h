@@ -43,8 +43,8 @@ class SourceMap {
 
 struct Diagnostic {
   SourceSpan span;
-  std::string
-      message;  ///< one sentence, lower case, no full stop: "cannot add a vector of degree 2 and a scalar of degree 3"
+  /// One sentence, lower case, no full stop: "cannot add a vector of degree 2 and a scalar of degree 3".
+  std::string message;
   std::string hint;  ///< optional: "did you mean `cross`?"
 };
 

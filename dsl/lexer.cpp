@@ -98,6 +98,12 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
 
+/// Whether people may take it for a letter: above ASCII, and neither punctuation nor a mathematical sign.
+bool looks_like_letter(std::uint32_t c) {
+  const bool symbol = (c >= 0x2000 && c <= 0x2BFF) || (c >= 0x3000 && c <= 0x303F) || c == 0xD7 || c == 0xF7;
+  return c >= 0xC0 && !symbol && !needs_escape(c);
+}
+
 class Lexer {
  public:
   Lexer(std::string_view text, std::uint32_t file, Diagnostics& diagnostics)
@@ -106,12 +112,15 @@ class Lexer {
   TokenList run() {
     if (text_.size() > max_file_size) {
       error(0, 0, fmt::format("the file is larger than {} MiB", max_file_size >> 20));
+      given_up_ = true;
     } else if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) {
       error(0, 2, "the file is UTF-16 text", "save it as UTF-8");
+      given_up_ = true;
     } else {
       if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
       while (at_ < text_.size() && !given_up_) lex_one();
     }
+    list_.complete = !given_up_;
     const std::uint32_t end = list_.tokens.empty() ? 0 : list_.tokens.back().end;
     list_.tokens.push_back({TokenKind::end, true, line_, end, end});
     return std::move(list_);
@@ -124,9 +133,7 @@ class Lexer {
   void error(std::size_t begin, std::size_t end, std::string message, std::string hint = {}) {
     diagnostics_.error({file_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)}, std::move(message),
                        std::move(hint));
-    if (++errors_ < max_errors) return;
-    given_up_ = true;
-    diagnostics_.error({file_, static_cast<std::uint32_t>(end), static_cast<std::uint32_t>(end)}, too_many_errors);
+    given_up_ = ++errors_ >= max_errors;
   }
 
   /// The token [begin, at_).
@@ -145,7 +152,7 @@ class Lexer {
       ++at_;
     } else if (is_digit(c) || (c == '.' && is_digit(peek(1)))) {
       lex_number();
-    } else if (is_name_start(c)) {
+    } else if (is_name_start(c) || at_foreign_letter()) {
       lex_name();
     } else if (looking_at("//")) {
       lex_line_comment();
@@ -167,10 +174,25 @@ class Lexer {
   void lex_name() {
     const std::size_t begin = at_;
     while (is_name_part(peek())) ++at_;
+    if (at_foreign_letter()) return lex_foreign_name(begin);
     const std::string_view name = text_.substr(begin, at_ - begin);
     const auto* keyword =
         std::find_if(keywords.begin(), keywords.end(), [&](const Spelling& s) { return s.text == name; });
     push(keyword == keywords.end() ? TokenKind::identifier : keyword->kind, begin);
+  }
+
+  bool at_foreign_letter() const {
+    if (at_ >= text_.size() || static_cast<unsigned char>(text_[at_]) < 0x80) return false;
+    const CodePoint code_point = decode_utf8(text_, at_);
+    return code_point.valid && looks_like_letter(code_point.value);
+  }
+
+  /// A name with letters outside ASCII, from byte `begin` on.
+  void lex_foreign_name(std::size_t begin) {
+    while (is_name_part(peek()) || at_foreign_letter()) at_ += decode_utf8(text_, at_).length;
+    error(begin, at_, fmt::format("{} is no name", quoted(text_.substr(begin, at_ - begin))),
+          "names are made of ASCII letters, digits and `_`");
+    push(TokenKind::malformed, begin);
   }
 
   void skip_digits() {

@@ -74,6 +74,7 @@ struct Token {
 struct TokenList {
   std::vector<Token> tokens;
   std::vector<Token> line_comments;  ///< kind is of no meaning
+  bool complete = true;              ///< false: the lexer gave the file up
 };
 
 /// Malformed text (UTF-8, numbers, characters of no meaning here, open comments and strings) is reported and becomes
@@ -82,9 +83,8 @@ TokenList lex(const SourceMap& sources, std::uint32_t file, Diagnostics& diagnos
 
 inline constexpr std::size_t max_file_size = std::size_t{1} << 24;
 
-/// After so many errors the lexer, and likewise the parser, says `too_many_errors` and stops.
+/// After so many errors the lexer, and likewise the parser, stops.
 inline constexpr int max_errors = 1000;
-inline constexpr const char* too_many_errors = "too many errors; the rest of the file is not read";
 
 /// "predicate", "(", ...; for the kinds that have one spelling.
 std::string_view spelling(TokenKind kind);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <iterator>
 
 #include "dsl/parse_expression.h"
@@ -53,10 +52,7 @@ class BlockParser {
       cursor_.expected_here("a statement", fmt::format("a name is bound with `let {} = ...`", cursor_.text(token)));
       return TokenKind::identifier;
     }
-    static constexpr std::array keywords = {
-        TokenKind::keyword_let,   TokenKind::keyword_sign,  TokenKind::keyword_value,    TokenKind::keyword_for,
-        TokenKind::keyword_stage, TokenKind::keyword_range, TokenKind::keyword_property, TokenKind::keyword_return};
-    const TokenKind nearest = cursor_.nearest(keywords);
+    const TokenKind nearest = cursor_.nearest(statement_keywords);
     if (nearest != TokenKind::identifier) {
       cursor_.expected_here("a statement", fmt::format("did you mean `{}`?", spelling(nearest)));
     }
@@ -266,7 +262,7 @@ void parse_statements(TokenCursor& cursor, std::vector<Expr>& exprs, const Block
 
 void parse_block(TokenCursor& cursor, std::vector<Expr>& exprs, const BlockContext& context,
                  std::vector<Statement>& body) {
-  const Nesting nesting(cursor);
+  const Nesting nesting(cursor, "");
   if (!nesting) return cursor.skip_block();
   const Token open = cursor.take();
   parse_statements(cursor, exprs, context, body);

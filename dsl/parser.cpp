@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "dsl/parse_expression.h"
@@ -66,9 +65,7 @@ class ModuleParser {
     const Token token = cursor_.peek();
     if (token.kind != TokenKind::identifier) return token.kind;
     if (!cursor_.at_name(1) && cursor_.kind(1) != TokenKind::string) return TokenKind::identifier;
-    static constexpr std::array keywords = {TokenKind::keyword_predicate, TokenKind::keyword_function,
-                                            TokenKind::keyword_instance, TokenKind::keyword_import};
-    const TokenKind nearest = cursor_.nearest(keywords);
+    const TokenKind nearest = cursor_.nearest(declaration_keywords);
     if (nearest != TokenKind::identifier) {
       cursor_.expected_here("a declaration", fmt::format("did you mean `{}`?", spelling(nearest)));
     }
@@ -201,7 +198,13 @@ class ModuleParser {
 }  // namespace
 
 Module parse(const SourceMap& sources, std::uint32_t file, Diagnostics& diagnostics) {
-  return ModuleParser(sources, file, lex(sources, file, diagnostics), diagnostics).run();
+  TokenList tokens = lex(sources, file, diagnostics);
+  if (!tokens.complete) {
+    Module module;
+    module.file = file;
+    return module;
+  }
+  return ModuleParser(sources, file, std::move(tokens), diagnostics).run();
 }
 
 }  // namespace tightrope::dsl

@@ -11,16 +11,9 @@ namespace tightrope::dsl {
 
 namespace {
 
-bool starts_declaration(TokenKind kind) {
-  return kind == TokenKind::keyword_predicate || kind == TokenKind::keyword_function ||
-         kind == TokenKind::keyword_instance || kind == TokenKind::keyword_import;
-}
-
-/// All but `for`, which also stands in comprehensions.
-bool starts_simple_statement(TokenKind kind) {
-  return kind == TokenKind::keyword_let || kind == TokenKind::keyword_sign || kind == TokenKind::keyword_value ||
-         kind == TokenKind::keyword_stage || kind == TokenKind::keyword_range || kind == TokenKind::keyword_property ||
-         kind == TokenKind::keyword_return;
+template <std::size_t n>
+bool contains(const std::array<TokenKind, n>& kinds, TokenKind kind) {
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
 }  // namespace
@@ -53,10 +46,7 @@ SourceSpan TokenCursor::since(std::uint32_t begin) const { return {file_, begin,
 void TokenCursor::error(SourceSpan span, std::string message, std::string hint) {
   if (errors_ == max_errors) return;
   diagnostics_.error(span, std::move(message), std::move(hint));
-  if (++errors_ == max_errors) {
-    at_ = tokens_.size() - 1;
-    diagnostics_.error(this->span(peek()), too_many_errors);
-  }
+  if (++errors_ == max_errors) at_ = tokens_.size() - 1;
   last_error_at_ = at_;
 }
 
@@ -113,19 +103,18 @@ TokenKind TokenCursor::nearest(std::span<const TokenKind> keywords) const {
   return TokenKind::identifier;
 }
 
-bool TokenCursor::enter() {
+bool TokenCursor::enter(std::string_view hint) {
   if (depth_ < max_nesting) {
     ++depth_;
     return true;
   }
   if (last_error_at_ != at_) {
-    error(span(peek()), fmt::format("this is nested more than {} levels deep", max_nesting),
-          "name a part of it with `let`");
+    error(span(peek()), fmt::format("this is nested more than {} levels deep", max_nesting), std::string(hint));
   }
   return false;
 }
 
-bool TokenCursor::at_declaration() const { return starts_declaration(kind()); }
+bool TokenCursor::at_declaration() const { return contains(declaration_keywords, kind()); }
 
 /// `for i in a..b {`: a `{` comes before anything that a loop's head cannot hold.
 bool TokenCursor::heads_loop() const {
@@ -137,19 +126,39 @@ bool TokenCursor::heads_loop() const {
     const bool closes = k == TokenKind::right_bracket || k == TokenKind::right_parenthesis;
     if (closes && --open < 0) return false;
     if (k == TokenKind::end || k == TokenKind::right_brace || k == TokenKind::semicolon ||
-        k == TokenKind::keyword_for || starts_simple_statement(k) || starts_declaration(k)) {
+        contains(statement_keywords, k) || contains(declaration_keywords, k)) {
       return false;
     }
   }
 }
 
 bool TokenCursor::at_statement() const {
-  return starts_simple_statement(kind()) || at_declaration() || (kind() == TokenKind::keyword_for && heads_loop());
+  if (kind() == TokenKind::keyword_for) return heads_loop();  // not the one of a comprehension
+  return contains(statement_keywords, kind()) || at_declaration();
+}
+
+/// After an error a keyword in the middle of a line may be a name of the user's; one that begins a line is a statement,
+/// and so is a misspelt one, or `x = ...`.
+bool TokenCursor::looks_like_statement() const {
+  const TokenKind before = previous().kind;
+  const bool fresh = peek().starts_line || before == TokenKind::semicolon || before == TokenKind::left_brace ||
+                     before == TokenKind::right_brace;
+  if (!fresh) return at_declaration();
+  if (at_statement()) return true;
+  if (kind() != TokenKind::identifier) return false;
+  return kind(1) == TokenKind::equals || (at_name(1) && nearest(statement_keywords) != TokenKind::identifier);
+}
+
+bool TokenCursor::looks_like_declaration() const {
+  if (at_declaration()) return true;
+  return kind() == TokenKind::identifier && peek().starts_line && (at_name(1) || kind(1) == TokenKind::string) &&
+         nearest(declaration_keywords) != TokenKind::identifier;
 }
 
 void TokenCursor::skip_to_statement() {
-  while (!at_end() && kind() != TokenKind::right_brace && !at_statement()) {
-    if (accept(TokenKind::semicolon)) return;
+  while (!at_end() && kind() != TokenKind::right_brace && !looks_like_statement()) {
+    // A `;` ends the statement, unless more of it follows on the line: `[a; b]`.
+    if (accept(TokenKind::semicolon) && (peek().starts_line || at_statement())) return;
     if (kind() == TokenKind::left_brace) {
       skip_block();
     } else {
@@ -159,7 +168,7 @@ void TokenCursor::skip_to_statement() {
 }
 
 void TokenCursor::skip_to_declaration() {
-  while (!at_end() && !at_declaration()) {
+  while (!at_end() && !looks_like_declaration()) {
     if (kind() == TokenKind::left_brace) {
       skip_block();
     } else {

@@ -1,6 +1,7 @@
 #pragma once
 /// The parser's place in the token list, and its way of saying what it expected there.
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,13 @@
 #include "dsl/lexer.h"
 
 namespace tightrope::dsl {
+
+inline constexpr std::array statement_keywords = {
+    TokenKind::keyword_let,   TokenKind::keyword_sign,  TokenKind::keyword_value,    TokenKind::keyword_for,
+    TokenKind::keyword_stage, TokenKind::keyword_range, TokenKind::keyword_property, TokenKind::keyword_return};
+
+inline constexpr std::array declaration_keywords = {TokenKind::keyword_predicate, TokenKind::keyword_function,
+                                                    TokenKind::keyword_instance, TokenKind::keyword_import};
 
 class TokenCursor {
  public:
@@ -44,13 +52,14 @@ class TokenCursor {
   TokenKind nearest(std::span<const TokenKind> keywords) const;
 
   /// One level of nesting deeper; false, and an error, where that is more than `max_nesting`.
-  bool enter();
+  bool enter(std::string_view hint);
   void leave() { --depth_; }
 
   /// At `let`, `sign`, ... or a declaration's keyword; a `for` only if it heads a loop (not a comprehension).
   bool at_statement() const;
   bool at_declaration() const;
-  /// To the next statement, the `}` of this block, or the next declaration; blocks on the way are stepped over.
+  /// To what looks like the next statement, to the `}` of this block or to the next declaration; blocks on the way are
+  /// stepped over.
   void skip_to_statement();
   /// To the next declaration.
   void skip_to_declaration();
@@ -61,6 +70,8 @@ class TokenCursor {
 
  private:
   bool heads_loop() const;
+  bool looks_like_statement() const;
+  bool looks_like_declaration() const;
 
   std::string_view text_;
   std::uint32_t file_;
@@ -75,7 +86,8 @@ class TokenCursor {
 /// One level of nesting, as long as it lives.
 class Nesting {
  public:
-  explicit Nesting(TokenCursor& cursor) : cursor_(cursor), entered_(cursor.enter()) {}
+  explicit Nesting(TokenCursor& cursor, std::string_view hint = "name a part of it with `let`")
+      : cursor_(cursor), entered_(cursor.enter(hint)) {}
   Nesting(const Nesting&) = delete;
   Nesting& operator=(const Nesting&) = delete;
   ~Nesting() {
