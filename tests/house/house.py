@@ -19,22 +19,24 @@ source_location span sstream stack stdexcept stop_token streambuf string string_
 system_error thread tuple type_traits typeindex typeinfo unordered_map unordered_set utility valarray variant vector
 version cassert cctype cerrno cfenv cfloat cinttypes climits clocale cmath csetjmp csignal cstdarg cstddef cstdint
 cstdio cstdlib cstring ctime cuchar cwchar cwctype""".split())
-POSIX = {"unistd.h", "sys/wait.h", "sys/stat.h", "sys/resource.h"}
+POSIX = r"unistd\.h|signal\.h|fcntl\.h|sys/\w+\.h"
 GENERATED = r"[\w-]+\.(?:float|safe|tight)\.(?:double|float)\.h"
 
-# Folder (the longest prefix wins): what its files may include, besides the standard library, as patterns of the name
-# between the quotes or brackets. RUNTIME stands for the headers that lie in runtime/tightrope/.
-RUNTIME = "RUNTIME"
+# Folder (the longest prefix wins): what its files may include besides the standard library, as patterns of the path in
+# the repository or, if the repository has no such file, of the name as it is written.
+RUNTIME = r"runtime/tightrope/[\w/]+\.h"
+API = r"ccd/tightrope/ccd\.h"
 RULES = {
     "runtime/": [RUNTIME],
     "dsl/": [r"dsl/.*", r"fmt/.*"],
-    "codegen/": [r"codegen/.*", r"dsl/.*", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", r"(?:clang|llvm)/.*", RUNTIME, "POSIX"],
-    "ccd/": [r"ccd/(?!oracle/).*", r"tightrope/ccd\.h", r"Eigen/.*", RUNTIME, GENERATED],
-    "ccd/oracle/": [r"ccd/oracle/.*", r"tightrope/ccd\.h", r"gmp(?:xx)?\.h"],
-    "ccd/query_io/": [r"ccd/query_io/.*", r"(?:ccd/)?tightrope/ccd\.h", r"gmp(?:xx)?\.h", r"fmt/.*", r"hdf5\.h", "POSIX"],
-    "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", r"(?:ccd/)?tightrope/ccd\.h", r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],
-    "ccd/command/": [r"ccd/.*", r"tightrope/ccd\.h", r"gmp(?:xx)?\.h", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", r"Eigen/.*", "POSIX"],
+    "codegen/": [r"codegen/.*", r"dsl/.*", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", r"(?:clang|llvm)/.*", RUNTIME, POSIX],
+    "ccd/": [r"ccd/[\w.]+", API, r"Eigen/.*", RUNTIME, GENERATED],
+    "ccd/oracle/": [r"ccd/oracle/.*", API, r"gmp(?:xx)?\.h"],
+    "ccd/query_io/": [r"ccd/query_io/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"hdf5\.h", POSIX],
+    "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],
+    "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io)/.*", API, r"fmt/.*", r"CLI/.*", r"nlohmann/.*", POSIX],
 }
+INCLUDE_ROOTS = ["", "ccd", "runtime"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 MACHINE_PATH = re.compile(r"(?<![\w.}$)~*-])/(?:work|tmp|home|root|Users|mnt|scratch)/")
 UNFINISHED = re.compile(r"\b(?:TO" r"DO|FIX" r"ME|XX" r"X)\b")
@@ -56,27 +58,14 @@ def tracked_files(root):
     return sorted(path for path in paths if not skipped.match(path))
 
 
-def allowed_include(root, rules, name):
-    """Whether a file under `rules` may include `name`."""
-    if name in STANDARD:
-        return True
-    for rule in rules:
-        if rule == RUNTIME:
-            if name != "tightrope/ccd.h" and re.fullmatch(r"tightrope/[\w/]+\.h", name) and (root / "runtime" / name).is_file():
-                return True
-        elif rule == "POSIX":
-            if name in POSIX:
-                return True
-        elif re.fullmatch(rule, name):
-            return True
-    return False
-
-
 def resolved(root, path, quote, name):
-    """The include as seen from the root of the repository: "pieces.h" beside ccd/a.cpp is ccd/pieces.h."""
-    beside = (root / path).parent / name
-    if quote == '"' and not (root / name).is_file() and beside.is_file():
-        return beside.resolve().relative_to(root.resolve()).as_posix()
+    """The included file's path in the repository, or the name as written if the repository has no such file."""
+    folders = [root / folder for folder in INCLUDE_ROOTS]
+    if quote == '"':
+        folders.insert(0, (root / path).parent)
+    for folder in folders:
+        if (folder / name).is_file():
+            return (folder / name).resolve().relative_to(root.resolve()).as_posix()
     return name
 
 
@@ -87,7 +76,10 @@ def include_violations(root, path, lines):
     folder = max(folders, key=len)
     for number, line in enumerate(lines, 1):
         match = INCLUDE.match(line)
-        if match and not allowed_include(root, RULES[folder], resolved(root, path, *match.groups())):
+        if not match or match.group(2) in STANDARD:
+            continue
+        included = resolved(root, path, *match.groups())
+        if not any(re.fullmatch(rule, included) for rule in RULES[folder]):
             yield number, f"{folder} may not include {match.group(2)}"
 
 

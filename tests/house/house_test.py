@@ -15,7 +15,8 @@ CLEAN = {
     "ccd/tightrope/ccd.h": "#include <Eigen/Core>\n",
     "ccd/tables.h": "#include <tightrope/sign.h>\n",
     "ccd/methods.cpp": '#include "tightrope/ccd.h"\n#include "tables.h"\n#include "vertex_face.tight.double.h"\n',
-    "ccd/oracle/oracle.cpp": '#include <gmpxx.h>\n#include "ccd/oracle/oracle.h"\n#include "tightrope/ccd.h"\n',
+    "ccd/oracle/oracle.h": '#include "tightrope/ccd.h"\n',
+    "ccd/oracle/oracle.cpp": '#include <gmpxx.h>\n#include "oracle/oracle.h"\n#include "tightrope/ccd.h"\n',
     "ccd/oracle/CMakeLists.txt": "target_link_libraries(tightrope_oracle PRIVATE gmpxx gmp)\n",
     "examples/a/main.cpp": "#include <Eigen/Core>\n",
 }
@@ -52,6 +53,7 @@ class House(unittest.TestCase):
             "oracle includes generated code": ("ccd/oracle/bad.cpp", '#include "vertex_face.tight.double.h"'),
             "oracle includes the methods": ("ccd/oracle/bad.cpp", '#include "ccd/tables.h"'),
             "oracle includes the methods by a relative path": ("ccd/oracle/bad.cpp", '#include "../tables.h"'),
+            "oracle includes the methods below the include root": ("ccd/oracle/bad.cpp", '#include "tables.h"'),
             "oracle includes the runtime": ("ccd/oracle/bad.cpp", "#include <tightrope/sign.h>"),
         }
         for name, (path, line) in planted.items():
