@@ -1,0 +1,31 @@
+#pragma once
+/// The subcommands. Each adds itself to the command line and gives back what to run if it is chosen; running returns
+/// the exit status: 0, or 2 when something was wrong with the usage or with a file (one line on stderr then tells).
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string_view>
+
+namespace tightrope::ccd {
+
+inline constexpr int success = 0;
+inline constexpr int bad_usage = 2;
+
+struct Subcommand {
+  CLI::App* app;
+  std::function<int()> run;
+};
+
+Subcommand add_methods(CLI::App& app);
+Subcommand add_evaluate(CLI::App& app);
+Subcommand add_classify(CLI::App& app);
+Subcommand add_generate(CLI::App& app);
+
+/// "tightrope-ccd: error: ..." on stderr; gives bad_usage back.
+int fail(std::string_view message);
+void warn(std::string_view message);
+
+/// Writes all of `text` to stdout and gives success back, or fails.
+int print(std::string_view text);
+
+}  // namespace tightrope::ccd

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "command/choices.h"
+#include "command/command.h"
+#include "command/evaluation.h"
+#include "command/report.h"
+
+namespace tightrope::ccd {
+namespace {
+
+struct EvaluateOptions {
+  std::string methods = "all";
+  std::string truth;
+  std::string kind;
+  std::string format;
+  std::vector<std::string> paths;
+};
+
+TruthSource truth_source(const std::string& text) {
+  if (text == "exact") return TruthSource::exact;
+  return text == "file" ? TruthSource::file : TruthSource::file_if_told;
+}
+
+void tell_notes(const Evaluation& evaluation) {
+  if (evaluation.rounded > 0) {
+    warn(fmt::format("{} rational coordinates are no doubles and were rounded to nearest", evaluation.rounded));
+  }
+  if (evaluation.wrong_truths > 0) {
+    warn(fmt::format("the files tell another truth than exact arithmetic for {} queries", evaluation.wrong_truths));
+  }
+  const bool known =
+      std::all_of(evaluation.rows.begin(), evaluation.rows.end(), [](const auto& row) { return row.mistakes; });
+  if (!known) warn("the truth is not known, a file tells none; --truth exact decides the queries exactly");
+}
+
+int run(const EvaluateOptions& options) {
+  auto chosen = chosen_methods(options.methods);
+  if (auto* wrong = std::get_if<std::string>(&chosen)) return fail(*wrong);
+  const EvaluationRequest request{.paths = options.paths,
+                                  .kind = chosen_kind(options.kind),
+                                  .methods = std::get<std::vector<Method>>(std::move(chosen)),
+                                  .truth = truth_source(options.truth)};
+  const auto outcome = evaluate(request);
+  if (const auto* wrong = std::get_if<FileError>(&outcome)) return fail(wrong->message);
+  const auto& evaluation = std::get<Evaluation>(outcome);
+  tell_notes(evaluation);
+  if (options.format == "json") return print(json(evaluation.rows));
+  if (options.format == "csv") return print(csv(evaluation.rows));
+  return print(table(evaluation.rows));
+}
+
+}  // namespace
+
+Subcommand add_evaluate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("evaluate", "Run methods on query files: wrong answers and time");
+  auto options = std::make_shared<EvaluateOptions>();
+  command
+      ->add_option("--method", options->methods, fmt::format("all, or names with commas between: {}", method_names()))
+      ->type_name("NAME,..");
+  command
+      ->add_option("--truth", options->truth,
+                   "file: the files must tell it; exact: decided by exact arithmetic; if not given: the files' where "
+                   "they tell it")
+      ->type_name("SOURCE")
+      ->check(CLI::IsMember({"file", "exact"}));
+  add_kind(*command, options->kind,
+           "kind of CSV files whose path does not tell it; leaves out queries of the other kind");
+  add_format(*command, options->format, {"table", "json", "csv"});
+  command->add_option("PATH", options->paths, "CSV and HDF5 query files, or directories of them")
+      ->required()
+      ->type_name("");
+  command->footer(
+      "Times are of one thread, double precision, reading not included; '/ tight' is the ratio to the method tight,\n"
+      "measured in the same run. The exit status is 0 also when a method is wrong.");
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace tightrope::ccd

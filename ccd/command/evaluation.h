@@ -1,0 +1,53 @@
+#pragma once
+/// What methods answer on query files, and how long they take.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "query_io/query_block.h"
+#include "tightrope/ccd.h"
+
+namespace tightrope::ccd {
+
+enum class TruthSource {
+  file_if_told,  ///< the files' truth; unknown for a kind if one of its files tells none
+  file,          ///< the files' truth, which they must tell
+  exact,         ///< the exact oracle's
+};
+
+struct EvaluationRequest {
+  std::vector<std::string> paths;
+  std::optional<Kind> kind;
+  std::vector<Method> methods;
+  TruthSource truth = TruthSource::file_if_told;
+};
+
+/// Counts against the truth.
+struct Mistakes {
+  std::uint64_t collisions = 0;  ///< queries that truly collide
+  std::uint64_t false_positives = 0;
+  std::uint64_t false_negatives = 0;
+};
+
+struct EvaluationRow {
+  Method method{};
+  Kind kind{};
+  std::uint64_t queries = 0;
+  std::uint64_t answers_true = 0;
+  std::optional<Mistakes> mistakes;  ///< empty: the truth is not known
+  double ns_per_query = 0;
+  double time_ratio_to_tight = 0;  ///< `tight` measured in the same run
+};
+
+struct Evaluation {
+  std::vector<EvaluationRow> rows;  ///< kind by kind, the methods in the order of the request; no rows without queries
+  std::uint64_t rounded = 0;        ///< rational coordinates that were rounded to a double
+  std::uint64_t wrong_truths = 0;   ///< TruthSource::exact: truths in files that are not the exact ones
+};
+
+std::variant<Evaluation, FileError> evaluate(const EvaluationRequest& request);
+
+}  // namespace tightrope::ccd

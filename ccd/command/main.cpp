@@ -1,0 +1,73 @@
+/// tightrope-ccd: continuous collision detection on query files.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "command/command.h"
+
+namespace tightrope::ccd {
+
+int fail(std::string_view message) {
+  fmt::print(stderr, "tightrope-ccd: error: {}\n", message);
+  return bad_usage;
+}
+
+void warn(std::string_view message) { fmt::print(stderr, "tightrope-ccd: warning: {}\n", message); }
+
+int print(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  return written ? success : fail("cannot write to standard output");
+}
+
+namespace {
+
+/// "--method, --truth, .." of a command line without subcommand chosen: the subcommands.
+std::string accepted(const CLI::App& app) {
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty()) {
+    for (const CLI::App* command : app.get_subcommands({})) add(command->get_name());
+    return "commands: " + names;
+  }
+  for (const CLI::Option* option : chosen.front()->get_options()) add(option->get_name());
+  return fmt::format("accepted by {}: {}", chosen.front()->get_name(), names);
+}
+
+int tell_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+  std::string what = error.what();
+  for (char& c : what) {
+    if (c == '\n') c = ' ';
+  }
+  const bool unknown = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  if (unknown || app.get_subcommands().empty()) what += "; " + accepted(app);
+  return fail(what);
+}
+
+int run(int argc, const char* const* argv) {
+  CLI::App app("Continuous collision detection with derived error bounds", "tightrope-ccd");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("tightrope-ccd ") + TIGHTROPE_VERSION);
+  const std::vector<Subcommand> commands = {add_methods(app), add_evaluate(app), add_classify(app), add_generate(app)};
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+    return fail(fmt::format("unknown command '{}'; {}", argv[1], accepted(app)));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == success) return app.exit(error);  // --help, --version
+    return tell_parse_error(app, error);
+  }
+  for (const Subcommand& command : commands) {
+    if (command.app->parsed()) return command.run();
+  }
+  return fail("no command");
+}
+
+}  // namespace
+}  // namespace tightrope::ccd
+
+int main(int argc, char** argv) { return tightrope::ccd::run(argc, argv); }
