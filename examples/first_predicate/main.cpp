@@ -21,8 +21,9 @@ int side(const double* p_t0, const double* p_t1) {
 }
 
 int main() {
-  const double start[] = {1.1, 1.4}, left[] = {1.1, 0.9},
-               through[] = {1.1, 0.4};  // `through` ends 1e-17 beyond the door
+  const double start[] = {1.1, 1.4};
+  const double left[] = {1.1, 0.9};
+  const double through[] = {1.1, 0.4};  // 1e-17 beyond the door
   std::printf("ends left of the door:  in double %+d, with its bound %+d\n", side<tightrope::bound::none>(start, left),
               side<tightrope::bound::tight>(start, left));
   std::printf("ends beyond the door:   in double %+d, with its bound %+d\n",
