@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "command/command.h"
@@ -52,8 +54,10 @@ int run(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("tightrope-ccd ") + TIGHTROPE_VERSION);
   const std::vector<Subcommand> commands = {add_methods(app), add_evaluate(app), add_classify(app), add_generate(app)};
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
-    return fail(fmt::format("unknown command '{}'; {}", argv[1], accepted(app)));
+  const std::string_view first = argc > 1 ? argv[1] : "-";
+  const auto called = [&](const Subcommand& command) { return command.app->get_name() == first; };
+  if (!first.starts_with('-') && std::none_of(commands.begin(), commands.end(), called)) {
+    return fail(fmt::format("unknown command '{}'; {}", first, accepted(app)));
   }
   try {
     app.parse(argc, argv);

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <map>
 
 #include "query_io/hdf5_handle.h"
@@ -46,6 +49,9 @@ class Hdf5Writer final : public QueryWriter {
   explicit Hdf5Writer(const std::filesystem::path& path) : place_(path) {}
 
   std::optional<FileError> open() {
+    std::FILE* probe = std::fopen(place_.path().c_str(), "wb");  // tells why not, which HDF5 does not
+    if (probe == nullptr) return failed(std::strerror(errno));
+    std::fclose(probe);
     const hdf5::Quiet quiet;
     file_ = Handle(H5Fcreate(place_.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
     if (!file_) return failed("cannot be created");
