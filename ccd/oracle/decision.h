@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "oracle/oracle.h"
+#include "ccd/oracle/oracle.h"
 
 namespace tightrope::ccd::oracle {
 

@@ -1,4 +1,4 @@
-#include "oracle/form.h"
+#include "ccd/oracle/form.h"
 
 #include <algorithm>
 #include <cassert>

@@ -4,16 +4,16 @@
 /// With A = a-d, B = b-d, C = c-d: Y = A.(B x C), m1 = B x C, m2 = C x A, m3 = A x B, n = m1 + m2 + m3 = (b-a) x (c-a).
 /// Contact needs Y(t) = 0. There, if n(t) != 0, d = (n.m1 a + n.m2 b + n.m3 c) / |n|^2.
 
-#include "oracle/oracle.h"
+#include "ccd/oracle/oracle.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <vector>
 
-#include "oracle/decision.h"
-#include "oracle/root.h"
-#include "oracle/scene.h"
+#include "ccd/oracle/decision.h"
+#include "ccd/oracle/root.h"
+#include "ccd/oracle/scene.h"
 
 namespace tightrope::ccd::oracle {
 namespace {

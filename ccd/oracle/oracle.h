@@ -18,7 +18,8 @@ struct Contact {
 /// Decides a query exactly; `points` as in collides(Kind, const double*), 24 finite numbers. Empty: no contact.
 std::optional<Contact> first_contact(Kind kind, std::span<const double, 24> points);
 
-/// Only whether there is contact (cheaper: no refinement of the time, certain non-contacts are found by exact signs first).
+/// Only whether there is contact (cheaper: no refinement of the time, certain non-contacts are found by exact signs
+/// first).
 bool contact(Kind kind, std::span<const double, 24> points);
 
 }  // namespace tightrope::ccd::oracle

@@ -1,4 +1,4 @@
-#include "oracle/root.h"
+#include "ccd/oracle/root.h"
 
 #include <bit>
 #include <cassert>

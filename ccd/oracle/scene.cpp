@@ -1,4 +1,4 @@
-#include "oracle/scene.h"
+#include "ccd/oracle/scene.h"
 
 #include <algorithm>
 #include <bit>

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "oracle/form.h"
-#include "oracle/oracle.h"
+#include "ccd/oracle/form.h"
+#include "ccd/oracle/oracle.h"
 
 namespace tightrope::ccd::oracle {
 
