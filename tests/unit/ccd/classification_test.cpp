@@ -1,0 +1,178 @@
+/// Sign erosion (MATH 6.4): the classification must not reject a contact, whichever signs it is not told. And the other
+/// way round: a classification that takes uncertain signs for definite ones must be noticed by the same contacts.
+
+#include <gtest/gtest.h>
+
+#include "classification.safe.double.h"
+#include "classification.tight.double.h"
+#include "contacts.h"
+#include "edge_edge.safe.double.h"
+#include "edge_edge.tight.double.h"
+#include "vertex_face.safe.double.h"
+#include "vertex_face.tight.double.h"
+
+// After the generated headers:
+#include "ccd/classification.h"
+
+namespace tightrope::ccd {
+namespace {
+
+using test::ContactGenerator;
+using test::Query;
+using test::Random;
+
+constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
+
+/// Forgets signs with a given probability.
+class ErodingReader {
+ public:
+  ErodingReader(std::uint64_t seed, int percent) : random_(seed), percent_(percent) {}
+  Sign operator()(const Bounded<double>& x) { return random_.chance(percent_) ? Sign::uncertain : sign(x); }
+
+ private:
+  Random random_;
+  int percent_;
+};
+
+/// Believes values whatever their bounds are, and takes 0 for positive.
+struct GullibleReader {
+  Sign operator()(const Bounded<double>& x) const { return x.value < 0 ? Sign::negative : Sign::positive; }
+};
+
+/// Believes a bound that is a given factor too small.
+struct BoastfulReader {
+  double factor;
+  Sign operator()(const Bounded<double>& x) const { return sign(Bounded<double>{x.value, x.bound * factor}); }
+};
+
+template <class Bound, class Reader>
+int missed_contacts(std::uint64_t seed, int count, Reader& reader) {
+  int missed = 0;
+  for (const Kind kind : kinds) {
+    ContactGenerator generator(seed);
+    for (int i = 0; i < count; ++i) missed += !collides<Bound>(kind, generator.contact(kind).data(), reader);
+  }
+  return missed;
+}
+
+TEST(Classification, ErosionOfSignsRejectsNoContact) {
+  for (const int percent : {2, 5, 20, 50, 90}) {
+    ErodingReader tight(1, percent), safe(2, percent);
+    EXPECT_EQ(missed_contacts<bound::tight>(21, 40'000, tight), 0) << percent;
+    EXPECT_EQ(missed_contacts<bound::safe>(22, 20'000, safe), 0) << percent;
+  }
+}
+
+TEST(Classification, WithoutErosionNoContactIsRejected) {
+  SignReader reader;
+  EXPECT_EQ(missed_contacts<bound::tight>(23, 50'000, reader), 0);
+  EXPECT_EQ(missed_contacts<bound::safe>(23, 50'000, reader), 0);
+}
+
+TEST(Classification, TooSmallBoundsAreNoticed) {
+  GullibleReader gullible;
+  EXPECT_GT(missed_contacts<bound::tight>(24, 20'000, gullible), 0);
+  BoastfulReader zero{0};
+  EXPECT_GT(missed_contacts<bound::tight>(24, 20'000, zero), 0);
+}
+
+TEST(Classification, MoreErosionNeverDecidesLess) {  // rejections only get fewer, on queries that do not touch
+  for (const Kind kind : kinds) {
+    Random random(25);
+    int last = 0;
+    std::vector<Query> queries(3000);
+    for (Query& query : queries) query = test::miss(kind, random);
+    for (const int percent : {0, 10, 50, 100}) {
+      ErodingReader reader(3, percent);
+      int reported = 0;
+      for (const Query& query : queries) reported += collides<bound::tight>(kind, query.data(), reader);
+      EXPECT_GE(reported, last);
+      last = reported;
+    }
+    EXPECT_EQ(last, 3000);  // no sign, no proof
+  }
+}
+
+TEST(Rescaling, IsExactAndKeepsSigns) {
+  Random random(26);
+  for (int i = 0; i < 100'000; ++i) {
+    std::array<Bounded<double>, 3> tuple, scaled;
+    for (Bounded<double>& x : tuple) {
+      x.value = std::ldexp(2 * random.unit() - 1, random.whole(-400, 400));
+      x.bound = random.chance(20) ? 0 : std::ldexp(random.unit(), random.whole(-400, 400));
+    }
+    scaled = tuple;
+    ASSERT_TRUE(rescale(scaled));
+    double largest = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      largest = std::max({largest, std::fabs(scaled[j].value), scaled[j].bound});
+      const int exponent = std::ilogb(tuple[j].value == 0 ? 1 : scaled[j].value / tuple[j].value);
+      EXPECT_EQ(scaled[j].value, std::ldexp(tuple[j].value, exponent));
+      EXPECT_GE(scaled[j].bound, std::ldexp(tuple[j].bound, exponent));
+      EXPECT_EQ(sign(scaled[j]), sign(tuple[j]));
+    }
+    EXPECT_GE(largest, 0.5);
+    EXPECT_LE(largest, 1);
+  }
+}
+
+TEST(Rescaling, CoversWhatUnderflowLoses) {
+  std::array<Bounded<double>, 2> tuple{{{0x1p800, 0}, {0x1.8p-270, 0}}};
+  ASSERT_TRUE(rescale(tuple));
+  EXPECT_GT(tuple[1].bound, 0);
+  EXPECT_LT(std::fabs(tuple[1].value - 0x1.8p-1071), tuple[1].bound);
+  EXPECT_EQ(sign(tuple[1]), Sign::uncertain);
+}
+
+TEST(Rescaling, RefusesWhatIsNotFinite) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {infinity, -infinity, std::nan("")}) {
+    std::array<Bounded<double>, 2> value{{{1, 0}, {bad, 0}}}, bound{{{1, 0}, {1, std::fabs(bad)}}};
+    EXPECT_FALSE(rescale(value));
+    EXPECT_FALSE(rescale(bound));
+  }
+  std::array<Bounded<double>, 2> zero{{{0, 0}, {0, 0}}};
+  EXPECT_TRUE(rescale(zero));
+  EXPECT_EQ(zero[0].value, 0);
+}
+
+TEST(Normalization, IsAnExactScalingToASpreadNearOne) {
+  Random random(27);
+  for (int i = 0; i < 20'000; ++i) {
+    Query query;
+    const int exponent = random.whole(-1000, 1000), offset = random.whole(0, 40);
+    for (double& x : query) x = std::ldexp(random.whole(-1000, 1000) + std::ldexp(1, offset), exponent - 30);
+    if (random.chance(30)) {
+      for (std::size_t point = 0; point < 4; ++point) query[3 * point] = std::ldexp(1.25, exponent);
+    }
+    const NormalizedQuery normalized = normalize(query.data());
+    ASSERT_EQ(normalized.kind, NormalizedQuery::Kind::scaled);
+    const double size = spread(normalized.points.data());
+    EXPECT_GE(size, 0.5);
+    EXPECT_LT(size, 1);
+    const double factor = size / spread(query.data());
+    for (std::size_t j = 0; j < 24; ++j) {
+      EXPECT_LE(std::fabs(normalized.points[j]), 0x1p54);
+      if (normalized.points[j] != 0) {
+        EXPECT_EQ(normalized.points[j], query[j] * factor);
+      }
+    }
+  }
+}
+
+TEST(Geometry, GuessOfTheExtremumIsOneForValleysAndHills) {
+  for (int q0 = 1; q0 <= 5; ++q0) {
+    for (int q1 = -5; q1 <= 5; ++q1) {
+      for (int q2 = 1; q2 <= 5; ++q2) {
+        for (const int up : {1, -1}) {
+          const auto exact = [](int x) { return Bounded<double>{static_cast<double>(x), 0}; };
+          const double t = guess_extremum({exact(-up * q0), exact(up * q1), exact(up * q2)});
+          EXPECT_NEAR(-q0 * (1 - t) * (1 - t) + 2 * q1 * t * (1 - t) + q2 * t * t, 0, 1e-14);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tightrope::ccd
