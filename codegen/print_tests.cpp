@@ -1,0 +1,449 @@
+#include "codegen/print_tests.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "codegen/interface.h"
+#include "codegen/print_cpp.h"
+
+namespace tightrope::codegen {
+namespace {
+
+using dsl::Node;
+using dsl::NodeId;
+using dsl::Op;
+
+/// Operations that all cases of one test may evaluate exactly (about a microsecond each), and the cases that makes.
+constexpr int operation_budget = 400'000;
+constexpr int fewest_cases = 100;
+constexpr int most_cases = 3000;
+
+/// Of the signs on generic inputs, these fractions must be definite. Far below what sound bounds reach, above 0.
+constexpr double definite_tight = 0.5;
+constexpr double definite_safe = 0.25;
+
+std::string call(const Node& node, const std::vector<int>& line) {
+  const auto at = [&](NodeId id) { return line[static_cast<std::size_t>(id)]; };
+  switch (node.op) {
+    case Op::input:
+      return fmt::format("input({})", node.index);
+    case Op::constant:
+      return fmt::format("constant({})", literal(node.value, Precision::binary64));
+    case Op::add:
+      return fmt::format("add({}, {})", at(node.a), at(node.b));
+    case Op::sub:
+      return fmt::format("sub({}, {})", at(node.a), at(node.b));
+    case Op::neg:
+      return fmt::format("neg({})", at(node.a));
+    case Op::mul:
+      return fmt::format("mul({}, {})", at(node.a), at(node.b));
+    case Op::mul_pow2:
+      return fmt::format("scale({}, {})", at(node.a), node.index);
+    case Op::div:
+      return fmt::format("div({}, {})", at(node.a), at(node.b));
+    case Op::sqrt:
+      return fmt::format("sqrt({})", at(node.a));
+    case Op::abs:
+      return fmt::format("abs({})", at(node.a));
+    case Op::min:
+      return fmt::format("min({}, {})", at(node.a), at(node.b));
+    case Op::max:
+      return fmt::format("max({}, {})", at(node.a), at(node.b));
+    case Op::max_magnitude:
+    case Op::fma:
+      break;
+  }
+  assert(false && "lowered predicates hold no operations of bounds");
+  return {};
+}
+
+class TestPrinter {
+ public:
+  TestPrinter(const dsl::Predicate& predicate, const TestOptions& options)
+      : predicate_(predicate),
+        options_(options),
+        arguments_(arguments(predicate)),
+        several_stages_(predicate.stages.size() > 1),
+        has_range_(std::any_of(predicate.parameters.begin(), predicate.parameters.end(),
+                               [](const dsl::Parameter& p) { return p.range.has_value(); })),
+        has_bounds_(std::any_of(options.modes.begin(), options.modes.end(),
+                                [](BoundMode mode) { return mode != BoundMode::none; })) {}
+
+  std::string print() {
+    print_operations();
+    print_parameters();
+    print_outputs();
+    print_properties();
+    print_reference();
+    print_adapter("");
+    if (has_range_) {
+      print_adapter("_in_range");
+      print_range_adapter();
+    }
+    for (const Precision precision : options_.precisions) {
+      print_codes(precision);
+      print_checks(precision);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  const std::string& name() const { return predicate_.name; }
+  void line(std::string_view text) { (out_ += text) += '\n'; }
+
+  /// `head` {a, b, c};
+  void print_list(const std::string& head, std::vector<std::string> items) {
+    for (std::size_t i = 0; i < items.size(); ++i) items[i] += i + 1 < items.size() ? "," : "};";
+    if (items.empty()) items.push_back("};");
+    line(head + "{");
+    line(wrap("    ", items));
+  }
+
+  void print_operations();
+  void print_parameters();
+  void print_outputs();
+  void print_properties();
+  void print_reference();
+  void print_adapter(const std::string& suffix);
+  void print_range_adapter();
+  void print_arguments();
+  std::string argument_list() const;
+  std::string property_id(std::size_t index) const;
+  void print_codes(Precision precision);
+  void print_checks(Precision precision);
+
+  const dsl::Predicate& predicate_;
+  const TestOptions& options_;
+  std::vector<Argument> arguments_;
+  bool several_stages_;
+  bool has_range_;
+  bool has_bounds_;
+  int operations_ = 0;
+  std::string out_;
+};
+
+/// The nodes that outputs need, renumbered.
+void TestPrinter::print_operations() {
+  const dsl::Graph& graph = predicate_.graph;
+  std::vector<bool> needed(static_cast<std::size_t>(graph.size()), false);
+  for (const dsl::Stage& stage : predicate_.stages) {
+    for (const dsl::Output& output : stage.outputs) {
+      for (const NodeId id : output.nodes) needed[static_cast<std::size_t>(id)] = true;
+    }
+  }
+  for (NodeId id = graph.size() - 1; id >= 0; --id) {
+    if (!needed[static_cast<std::size_t>(id)]) continue;
+    for (const NodeId operand : {graph[id].a, graph[id].b, graph[id].c}) {
+      if (operand != dsl::no_node) needed[static_cast<std::size_t>(operand)] = true;
+    }
+  }
+  std::vector<int> numbers(needed.size(), -1);
+  std::vector<std::string> calls;
+  for (NodeId id = 0; id < graph.size(); ++id) {
+    if (!needed[static_cast<std::size_t>(id)]) continue;
+    numbers[static_cast<std::size_t>(id)] = static_cast<int>(calls.size());
+    calls.push_back(call(graph[id], numbers));
+  }
+  operations_ = static_cast<int>(calls.size());
+  std::vector<std::string> results;
+  for (const dsl::Stage& stage : predicate_.stages) {
+    for (const dsl::Output& output : stage.outputs) {
+      for (const NodeId id : output.nodes) results.push_back(std::to_string(numbers[static_cast<std::size_t>(id)]));
+    }
+  }
+  line(fmt::format("\n// {}: the exact values, direct products, nothing simplified.\n// clang-format off", name()));
+  print_list(fmt::format("constexpr Operation {}_operations[] = ", name()), std::move(calls));
+  print_list(fmt::format("constexpr int {}_results[] = ", name()), std::move(results));
+}
+
+void TestPrinter::print_parameters() {
+  std::vector<std::string> items;
+  for (const dsl::Parameter& p : predicate_.parameters) {
+    const double range = p.range.value_or(std::numeric_limits<double>::infinity());
+    items.push_back(fmt::format("{{\"{}\", {}, {}, {}, {}, {}, {}}}", p.name, p.elements(), p.moving ? 2 : 1,
+                                p.dimension, p.bounded, p.point, literal(range, Precision::binary64)));
+  }
+  print_list(fmt::format("const std::vector<Parameter> {}_parameters = ", name()), std::move(items));
+}
+
+void TestPrinter::print_outputs() {
+  std::vector<std::string> items;
+  for (const dsl::Stage& stage : predicate_.stages) {
+    for (const dsl::Output& output : stage.outputs) {
+      items.push_back(fmt::format("{{\"{}\", {{{}}}, {}}}", output.name, fmt::join(output.extents, ", "), output.sign));
+    }
+  }
+  print_list(fmt::format("const std::vector<Output> {}_outputs = ", name()), std::move(items));
+}
+
+std::string parameter_names(const dsl::Predicate& predicate, const std::vector<int>& parameters) {
+  std::string text;
+  for (const int p : parameters) {
+    text += (text.empty() ? "" : ", ") + predicate.parameters[static_cast<std::size_t>(p)].name;
+  }
+  return text;
+}
+
+/// Slot i of the permuted inputs is slot [i] of the inputs: each listed parameter takes the place of the one before.
+std::vector<int> slot_permutation(const dsl::Predicate& predicate, const std::vector<int>& parameters) {
+  std::vector<int> permutation(predicate.slots.size());
+  for (std::size_t i = 0; i < permutation.size(); ++i) permutation[i] = static_cast<int>(i);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const dsl::Parameter& to = predicate.parameters[static_cast<std::size_t>(parameters[i])];
+    const dsl::Parameter& from =
+        predicate.parameters[static_cast<std::size_t>(parameters[(i + 1) % parameters.size()])];
+    for (int k = 0; k < to.slots(); ++k) {
+      permutation[static_cast<std::size_t>(to.first_slot + k)] = from.first_slot + k;
+    }
+  }
+  return permutation;
+}
+
+/// "antisymmetric(a, b)"
+std::string property_text(const dsl::Predicate& predicate, const dsl::Property& p) {
+  const std::string names = parameter_names(predicate, p.parameters);
+  switch (p.kind) {
+    case dsl::Property::Kind::antisymmetric:
+      return fmt::format("antisymmetric({})", names);
+    case dsl::Property::Kind::symmetric:
+      return fmt::format("symmetric({})", names);
+    case dsl::Property::Kind::cyclic:
+      return fmt::format("cyclic({})", names);
+    case dsl::Property::Kind::translation_invariant:
+      return "translation_invariant";
+    case dsl::Property::Kind::scale:
+      return fmt::format("scale({})", p.exponent);
+  }
+  return {};
+}
+
+void TestPrinter::print_properties() {
+  std::vector<std::vector<int>> first_element;  // by stage, by output
+  int element = 0;
+  for (const dsl::Stage& stage : predicate_.stages) {
+    first_element.emplace_back();
+    for (const dsl::Output& output : stage.outputs) {
+      first_element.back().push_back(element);
+      element += static_cast<int>(output.nodes.size());
+    }
+  }
+  std::vector<std::string> items;
+  for (const dsl::Property& p : predicate_.properties) {
+    std::vector<int> elements;
+    for (const auto& [stage, output] : p.outputs) {
+      const auto s = static_cast<std::size_t>(stage);
+      const auto o = static_cast<std::size_t>(output);
+      for (std::size_t i = 0; i < predicate_.stages[s].outputs[o].nodes.size(); ++i) {
+        elements.push_back(first_element[s][o] + static_cast<int>(i));
+      }
+    }
+    std::string_view kind = "permutation";
+    if (p.kind == dsl::Property::Kind::translation_invariant) kind = "translation";
+    if (p.kind == dsl::Property::Kind::scale) kind = "scale";
+    const int factor = p.kind == dsl::Property::Kind::antisymmetric ? -1 : 1;
+    std::vector<int> permutation;
+    if (kind == "permutation") permutation = slot_permutation(predicate_, p.parameters);
+    items.push_back(fmt::format("{{\"{}\", Property::Kind::{}, {}, {}, {{{}}}, {{{}}}}}", property_text(predicate_, p),
+                                kind, factor, p.exponent, fmt::join(permutation, ", "), fmt::join(elements, ", ")));
+  }
+  print_list(fmt::format("const std::vector<Property> {}_properties = ", name()), std::move(items));
+}
+
+void TestPrinter::print_reference() {
+  const int cases = std::clamp(operation_budget / std::max(1, operations_), fewest_cases, most_cases);
+  std::vector<std::string> items = {fmt::format("\"{}\"", name())};
+  for (const std::string_view part : {"operations", "parameters", "outputs", "results", "properties"}) {
+    items.push_back(fmt::format("{}_{}", name(), part));
+  }
+  items.push_back(fmt::format("{}", options_.same_products));
+  items.push_back(fmt::format("{}", cases));
+  print_list(fmt::format("const Reference {}_reference = ", name()), std::move(items));
+  line("// clang-format on");
+}
+
+/// "antisymmetric_a_b", numbered if declared twice.
+std::string TestPrinter::property_id(std::size_t index) const {
+  const auto id = [&](std::size_t i) {
+    std::string text = property_text(predicate_, predicate_.properties[i]);
+    std::string result;
+    for (const char c : text) {
+      const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+      if (plain || c == '-') result += plain ? c : 'm';
+      if (c == '(' || c == ' ') result += '_';
+    }
+    return result;
+  };
+  const std::string result = id(index);
+  for (std::size_t i = 0; i < predicate_.properties.size(); ++i) {
+    if (i != index && id(i) == result) return fmt::format("{}_{}", result, index);
+  }
+  return result;
+}
+
+/// Flat slots become the arguments a0, a1, ... of the generated functions.
+void TestPrinter::print_arguments() {
+  for (std::size_t a = 0; a < arguments_.size(); ++a) {
+    const Argument& argument = arguments_[a];
+    std::vector<std::string> items;
+    for (const int slot : argument.slots)
+      items.push_back(fmt::format("x[{}]{}", slot, argument.bounded ? "" : ".value"));
+    const std::string type = argument.bounded ? "Bounded<Real>" : "Real";
+    if (argument.pointer) {
+      for (std::size_t i = 0; i < items.size(); ++i) items[i] += i + 1 < items.size() ? "," : "};";
+      line(wrap(fmt::format("  const {} a{}[] = {{", type, a), items));
+    } else {
+      line(fmt::format("  const {} a{} = {};", type, a, items.front()));
+    }
+  }
+}
+
+std::string TestPrinter::argument_list() const {
+  std::string list;
+  for (std::size_t a = 0; a < arguments_.size(); ++a) list += fmt::format("{}a{}", a == 0 ? "" : ", ", a);
+  return list;
+}
+
+void TestPrinter::print_adapter(const std::string& suffix) {
+  line("\ntemplate <class Bound, class Real>");
+  const std::string_view x = arguments_.empty() ? "/*x*/" : "x";
+  line(fmt::format("void {}_evaluate{}(const Bounded<Real>* {}, Bounded<Real>* y) {{", name(), suffix, x));
+  line(fmt::format("  using Code = generated::{}<Bound, Real>;", name()));
+  print_arguments();
+  if (several_stages_) line("  typename Code::State state;");
+  for (std::size_t s = 0; s < predicate_.stages.size(); ++s) {
+    const dsl::Stage& stage = predicate_.stages[s];
+    const std::string_view state = !several_stages_ ? "" : arguments_.empty() ? "state" : ", state";
+    line(fmt::format("  const auto r{} = Code::{}{}({}{});", s, stage.name, suffix, argument_list(), state));
+    for (const dsl::Output& output : stage.outputs) line(fmt::format("  y = collect(r{}.{}, y);", s, output.name));
+  }
+  line("}");
+}
+
+void TestPrinter::print_range_adapter() {
+  line("\ntemplate <class Bound, class Real>");
+  line(fmt::format("bool {}_in_range(const Bounded<Real>* x) {{", name()));
+  print_arguments();
+  line(fmt::format("  return generated::{}<Bound, Real>::in_range({});", name(), argument_list()));
+  line("}");
+}
+
+void TestPrinter::print_codes(Precision precision) {
+  const std::string real = codegen::name(precision);
+  line(fmt::format("\nconst Code<{0}> {1}_codes_{0}[] = {{", real, name()));
+  for (const BoundMode mode : options_.modes) {
+    const bool bounds = mode != BoundMode::none;
+    const double definite = !bounds ? 0 : mode == BoundMode::tight ? definite_tight : definite_safe;
+    const auto function = [&](std::string_view suffix) {
+      return fmt::format("{}_{}<{}, {}>", name(), suffix, tag(mode), real);
+    };
+    line(
+        fmt::format("    {{\"{} {}\", {}, {}, {},", codegen::name(mode), real, bounds, definite, function("evaluate")));
+    line(has_range_ ? fmt::format("     {}, {}}},", function("evaluate_in_range"), function("in_range"))
+                    : std::string("     nullptr, nullptr},"));
+  }
+  line("};");
+}
+
+void TestPrinter::print_checks(Precision precision) {
+  const std::string real = codegen::name(precision);
+  const auto test = [&](std::string_view test_name, std::string_view function, std::string_view more) {
+    line(fmt::format("\nTEST({}_{}, {}) {{", name(), real, test_name));
+    line(fmt::format("  expect({2}<{0}>({1}_reference, {1}_codes_{0}{3}));", real, name(), function, more));
+    line("}");
+  };
+  const std::pair<std::string_view, std::string_view> families[] = {
+      {"covers_errors_on_uniform_inputs", "uniform"},    {"covers_errors_on_a_lattice", "lattice"},
+      {"covers_errors_near_zeros", "zero_set"},          {"covers_errors_on_dependent_inputs", "dependent"},
+      {"covers_errors_at_all_scales", "scales"},         {"covers_errors_far_from_the_origin", "far_away"},
+      {"covers_errors_on_mixed_magnitudes", "mixed"},    {"covers_errors_under_underflow", "underflow"},
+      {"covers_errors_on_extreme_exponents", "extreme"}, {"is_uncertain_on_infinities_and_nan", "not_finite"},
+  };
+  for (const auto& [test_name, family] : families) {
+    test(test_name, "check_family", fmt::format(", Family::{}", family));
+  }
+  if (has_range_) test("keeps_declared_ranges", "check_ranges", "");
+  if (!has_bounds_) return;
+  test("covers_the_worst_errors_found", "check_worst_errors", "");
+  test("bounds_are_of_use", "check_usefulness", "");
+  for (std::size_t p = 0; p < predicate_.properties.size(); ++p) {
+    test("keeps_" + property_id(p), "check_property", fmt::format(", {}", p));
+  }
+}
+
+/// The folder of tightrope/sign.h: beside an installed command, or this build's source.
+std::string include_directory() {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path command = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    const fs::path installed = (command.parent_path().parent_path() / "include").lexically_normal();
+    if (fs::exists(installed / "tightrope" / "sign.h", error)) return installed.string();
+  }
+  return fs::exists(fs::path(TIGHTROPE_RUNTIME_DIRECTORY) / "tightrope" / "sign.h", error) ? TIGHTROPE_RUNTIME_DIRECTORY
+                                                                                           : "";
+}
+
+}  // namespace
+
+std::string print_tests(const dsl::Program& reference, const TestOptions& options) {
+  std::string text = fmt::format(
+      "// Generated by tightrope {} from {} (FNV-1a {:016x}). Do not edit.\n"
+      "//\n"
+      "// Checks the generated code against exact arithmetic; docs/generated-code.md tells how.\n"
+      "#include <gtest/gtest.h>\n"
+      "#include <tightrope/testing.h>\n\n",
+      TIGHTROPE_VERSION, comment_text(options.source_name), options.source_hash);
+  for (const BoundMode mode : options.modes) {
+    for (const Precision precision : options.precisions) {
+      text += fmt::format("#include \"{}\"\n", header_name(options.stem, mode, precision));
+    }
+  }
+  text +=
+      "\nnamespace tightrope::testing {\n"
+      "namespace {\n\n"
+      "void expect(const std::string& failure) { EXPECT_TRUE(failure.empty()) << failure; }\n";
+  for (const dsl::Predicate& predicate : reference.predicates) text += TestPrinter(predicate, options).print();
+  return text + "\n}  // namespace\n}  // namespace tightrope::testing\n";
+}
+
+std::string print_test_project() {
+  return fmt::format(R"(# Generated by tightrope {}. Builds and runs the generated tests of this folder:
+#   cmake -S . -B build && cmake --build build && ctest --test-dir build
+cmake_minimum_required(VERSION 3.20)
+project(generated_tests LANGUAGES CXX)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+# Where <tightrope/sign.h> is found; without it, an installed Tightrope is looked for.
+set(TIGHTROPE_INCLUDE_DIR "{}" CACHE PATH "folder of tightrope/sign.h")
+find_package(GTest REQUIRED)
+if(EXISTS "${{TIGHTROPE_INCLUDE_DIR}}/tightrope/testing.h")
+  add_library(tightrope_headers INTERFACE)
+  target_include_directories(tightrope_headers INTERFACE "${{TIGHTROPE_INCLUDE_DIR}}")
+else()
+  find_package(Tightrope REQUIRED)
+  add_library(tightrope_headers ALIAS tightrope::runtime)
+endif()
+
+enable_testing()
+include(GoogleTest)
+file(GLOB tests CONFIGURE_DEPENDS "${{CMAKE_CURRENT_SOURCE_DIR}}/*.test.cpp")
+foreach(test IN LISTS tests)
+  get_filename_component(name "${{test}}" NAME_WLE)
+  string(MAKE_C_IDENTIFIER "${{name}}" target)
+  add_executable(${{target}} "${{test}}")
+  target_compile_features(${{target}} PRIVATE cxx_std_20)
+  target_link_libraries(${{target}} PRIVATE tightrope_headers GTest::gtest_main)
+  gtest_discover_tests(${{target}} TEST_PREFIX ${{target}}. DISCOVERY_TIMEOUT 60)
+endforeach()
+)",
+                     TIGHTROPE_VERSION, include_directory());
+}
+
+}  // namespace tightrope::codegen

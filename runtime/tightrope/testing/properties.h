@@ -1,0 +1,118 @@
+#pragma once
+/// Declared properties (antisymmetric, cyclic, translation_invariant, ...): they must hold exactly, and no two definite
+/// signs of generated code may contradict them.
+
+#include <tightrope/testing/checks.h>
+
+namespace tightrope::testing {
+
+namespace detail {
+
+/// The exact outputs' factor from the inputs to the transformed inputs: f(x') = factor f(x).
+template <class Real>
+struct Transformed {
+  Case<Real> inputs;
+  DyadicRatio factor;
+};
+
+inline DyadicRatio power(const DyadicRatio& base, int exponent) {
+  DyadicRatio result(1);
+  for (int i = 0; i < std::abs(exponent); ++i) result = result * base;
+  return exponent < 0 ? DyadicRatio(1) / result : result;
+}
+
+template <class Real>
+Transformed<Real> permuted(const Property& property, const Case<Real>& c) {
+  Transformed<Real> result{c, DyadicRatio(property.factor)};
+  for (std::size_t i = 0; i < property.permutation.size(); ++i) {
+    const auto from = static_cast<std::size_t>(property.permutation[i]);
+    result.inputs.x[i] = c.x[from];
+    result.inputs.exact[i] = c.exact[from];
+  }
+  return result;
+}
+
+/// Moves all points by whole numbers: exact for inputs on the lattice.
+template <class Real>
+Transformed<Real> translated(const Reference& reference, const Case<Real>& c, Random& random) {
+  Transformed<Real> result{c, DyadicRatio(1)};
+  const int offset[3] = {random.between(-100, 100), random.between(-100, 100), random.between(-100, 100)};
+  std::size_t slot = 0;
+  for (const Parameter& p : reference.parameters) {
+    for (int k = 0; k < p.slots(); ++k, ++slot) {
+      if (!p.point) continue;
+      const int d = offset[k % p.dimension];
+      result.inputs.x[slot].value += static_cast<Real>(d);
+      result.inputs.exact[slot].value += DyadicRatio(d);
+    }
+  }
+  return result;
+}
+
+/// Scales all inputs by a power of two (exact in floating point) or by three times that (exact for small numbers).
+template <class Real>
+Transformed<Real> scaled(const Property& property, const Case<Real>& c, Random& random) {
+  const Real s = std::ldexp(static_cast<Real>(random.one_in(2) ? 1 : 3), random.between(-8, 8));
+  const DyadicRatio exact_s(static_cast<double>(s));
+  Transformed<Real> result{c, power(exact_s, property.exponent)};
+  for (std::size_t i = 0; i < c.x.size(); ++i) {
+    result.inputs.x[i] = {c.x[i].value * s, c.x[i].bound * s};
+    result.inputs.exact[i].value *= exact_s;
+  }
+  return result;
+}
+
+/// Inputs that every transformation keeps exact: whole numbers, bounded inputs without error.
+template <class Real>
+Case<Real> exact_case(Inputs<Real>& inputs) {
+  Case<Real> c = inputs.make(Family::lattice);
+  for (std::size_t i = 0; i < c.x.size(); ++i) {
+    c.x[i].bound = 0;
+    c.exact[i] = Exact::of(static_cast<double>(c.x[i].value));
+  }
+  return c;
+}
+
+}  // namespace detail
+
+template <class Real>
+std::string check_property(const Reference& reference, std::span<const Code<Real>> codes, std::size_t index) {
+  const Property& property = reference.properties[index];
+  Random random(detail::seed(reference, property.text));
+  Inputs<Real> inputs(reference, random);
+  for (int n = 0; n < reference.cases; ++n) {
+    const bool permutation = property.kind == Property::Kind::permutation;
+    const Case<Real> c = permutation && random.one_in(2) ? inputs.make(Family::uniform) : detail::exact_case(inputs);
+    const detail::Transformed<Real> t = permutation ? detail::permuted(property, c)
+                                        : property.kind == Property::Kind::translation
+                                            ? detail::translated(reference, c, random)
+                                            : detail::scaled(property, c, random);
+    const std::vector<Exact> before = evaluate_exact(reference, c.exact);
+    const std::vector<Exact> after = evaluate_exact(reference, t.inputs.exact);
+    for (const int element : property.outputs) {
+      const auto i = static_cast<std::size_t>(element);
+      if (!before[i].finite() || !after[i].finite()) continue;
+      if (after[i].value != before[i].value * t.factor) {
+        return std::string(reference.name) + ": property " + property.text + " does not hold for " +
+               detail::output_name(reference, element) + "\n" + detail::describe_inputs(reference, c) + "becomes\n" +
+               detail::describe_inputs(reference, t.inputs);
+      }
+    }
+    for (const Code<Real>& code : codes) {
+      if (!code.has_bounds) continue;
+      const std::vector<Bounded<Real>> y = detail::evaluate(reference, code, c);
+      const std::vector<Bounded<Real>> z = detail::evaluate(reference, code, t.inputs);
+      for (const int element : property.outputs) {
+        const auto i = static_cast<std::size_t>(element);
+        const int signs = static_cast<int>(sign(y[i])) * static_cast<int>(sign(z[i]));
+        if (signs == -t.factor.sign() && signs != 0) {
+          return detail::failure(reference, code.name, t.inputs, element, z[i],
+                                 std::string("contradicts property ") + property.text);
+        }
+      }
+    }
+  }
+  return "";
+}
+
+}  // namespace tightrope::testing
