@@ -5,7 +5,7 @@
 namespace tightrope::ccd {
 namespace {
 
-using Query = std::array<double, coordinates_per_query>;
+using Query = std::array<double, numbers_per_query>;
 
 template <class... Points>
 Query gather(const Points&... points) {
@@ -35,7 +35,7 @@ bool collides(Kind kind, const double* points, Method method) { return decision(
 
 void collides(Kind kind, const double* points, std::size_t count, unsigned char* results, Method method) {
   const Decide decide = decision(method);
-  for (std::size_t i = 0; i < count; ++i) results[i] = decide(kind, points + coordinates_per_query * i) ? 1 : 0;
+  for (std::size_t i = 0; i < count; ++i) results[i] = decide(kind, points + numbers_per_query * i) ? 1 : 0;
 }
 
 bool vertex_face(const Eigen::Vector3d& v_t0, const Eigen::Vector3d& f0_t0, const Eigen::Vector3d& f1_t0,

@@ -245,11 +245,46 @@ bool may_touch(Kind kind, const double* points, bool scaled, Signs& signs) {
   return true;
 }
 
+/// The bound mode of the first look: SafeBound costs little more than the values, and nearly every query of a broad
+/// phase ends there (MATH 8). What it cannot reject is looked at again, with the sharper bound and geometry.
+template <class Bound>
+struct FirstLook {
+  using type = bound::safe;
+};
+template <>
+struct FirstLook<bound::none> {
+  using type = bound::none;
+};
+
+/// Are the four points never in one plane, by the signs of the cubic's coefficients (MATH 2.1, step 1)?
+template <class Bound, class Signs>
+bool never_coplanar(Kind kind, const double* points, Signs& signs) {
+  const MovingPoint a = moving_point(points, 0), b = moving_point(points, 1);
+  const MovingPoint c = moving_point(points, 2), d = moving_point(points, 3);
+  switch (kind) {
+    case Kind::vertex_face: {
+      using predicate = generated::vertex_face<Bound, double>;
+      typename predicate::State state;
+      const auto result = predicate::coplanarity_in_range(a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, d.t0, d.t1, state);
+      return common(read_all(signs, result.k)) != Sign::uncertain;
+    }
+    case Kind::edge_edge: {
+      using predicate = generated::edge_edge<Bound, double>;
+      typename predicate::State state;
+      const auto result = predicate::coplanarity_in_range(a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, d.t0, d.t1, c.t0, c.t1,
+                                                          a.t0, a.t1, state);
+      return common(read_all(signs, result.k)) != Sign::uncertain;
+    }
+  }
+  return false;
+}
+
 /// Any query: `points` holds 24 numbers. Not finite: true.
 template <class Bound, class Signs>
 bool collides(Kind kind, const double* points, Signs& signs) {
-  if (has_moderate_coordinates(points) && spread(points) >= least_spread) {
-    return may_touch<Bound>(kind, points, false, signs);
+  if (has_moderate_coordinates(points)) {
+    if (never_coplanar<typename FirstLook<Bound>::type>(kind, points, signs)) return false;
+    if (spread(points) >= least_spread) return may_touch<Bound>(kind, points, false, signs);
   }
   const NormalizedQuery query = normalize(points);
   switch (query.kind) {

@@ -4,7 +4,7 @@ namespace tightrope::ccd {
 namespace {
 
 /// Takes coordinates that all four points share at one end of the step to 0: a translation of that end.
-void remove_common_coordinates(std::span<double, coordinates_per_query> points) {
+void remove_common_coordinates(std::span<double, numbers_per_query> points) {
   for (const std::size_t end : {0U, 12U}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double* x = &points[end + axis];
@@ -17,7 +17,7 @@ void remove_common_coordinates(std::span<double, coordinates_per_query> points) 
 
 NormalizedQuery normalize(const double* points) {
   NormalizedQuery query{{}, NormalizedQuery::Kind::scaled};
-  std::array<double, coordinates_per_query>& x = query.points;
+  std::array<double, numbers_per_query>& x = query.points;
   std::copy_n(points, x.size(), x.begin());
   if (!std::all_of(x.begin(), x.end(), [](double coordinate) { return std::isfinite(coordinate); })) {
     query.kind = NormalizedQuery::Kind::not_finite;

@@ -13,7 +13,7 @@
 namespace tightrope::ccd {
 
 inline constexpr int points_per_query = 8;
-inline constexpr int coordinates_per_query = 3 * points_per_query;
+inline constexpr int numbers_per_query = 3 * points_per_query;
 
 /// A point that moves linearly from t0 to t1 (3 coordinates each) over the step.
 struct MovingPoint {
@@ -41,7 +41,7 @@ inline double distance_estimate(MovingPoint x, MovingPoint y) {
 inline bool has_moderate_coordinates(const double* points) {
   constexpr double limit = 0x1p53;
   bool moderate = true;
-  for (int i = 0; i < coordinates_per_query; ++i) moderate &= magnitude(points[i]) <= limit;
+  for (int i = 0; i < numbers_per_query; ++i) moderate &= magnitude(points[i]) <= limit;
   return moderate;
 }
 
@@ -63,7 +63,7 @@ inline constexpr double least_spread = 0x1p-100;
 
 /// A query scaled by a power of two so that its spread lies in [1/2, 1).
 struct NormalizedQuery {
-  std::array<double, coordinates_per_query> points;
+  std::array<double, numbers_per_query> points;
   enum class Kind { scaled, not_finite, coincident } kind;  ///< coincident: the four points are one all the time
 };
 
