@@ -190,7 +190,7 @@ class Lexer {
   /// A name with letters outside ASCII, from byte `begin` on.
   void lex_foreign_name(std::size_t begin) {
     while (is_name_part(peek()) || at_foreign_letter()) at_ += decode_utf8(text_, at_).length;
-    error(begin, at_, fmt::format("{} is no name", quoted(text_.substr(begin, at_ - begin))),
+    error(begin, at_, fmt::format("{} is no name", quote(text_.substr(begin, at_ - begin))),
           "names are made of ASCII letters, digits and `_`");
     push(TokenKind::malformed, begin);
   }
@@ -224,19 +224,19 @@ class Lexer {
           begin > 0 && (is_name_part(text_[begin - 1]) || text_[begin - 1] == ']' || text_[begin - 1] == ')');
       error(begin, at_, "a number starts with a digit",
             after_operand ? std::string("a component is written `v.x` or `v[0]`")
-                          : fmt::format("write {}", quoted("0" + std::string(number))));
+                          : fmt::format("write {}", quote("0" + std::string(number))));
     } else if (hexadecimal) {
-      error(begin, at_, fmt::format("{} is not a number", quoted(number)),
+      error(begin, at_, fmt::format("{} is not a number", quote(number)),
             "numbers are decimal; a power of two is written `2^-30`");
     } else if (no_fraction) {
       error(begin, at_, "a digit must follow the point of a number",
-            fmt::format("write {}", quoted(std::string(text_.substr(begin, number_end - begin)) + "0")));
+            fmt::format("write {}", quote(std::string(text_.substr(begin, number_end - begin)) + "0")));
     } else if (number_end != at_) {
       const std::string_view rest = text_.substr(number_end, at_ - number_end);
-      error(begin, at_, fmt::format("{} is not a number", quoted(number)),
+      error(begin, at_, fmt::format("{} is not a number", quote(number)),
             is_name_start(rest[0]) && rest.find('.') == rest.npos
                 ? fmt::format("a product is written {}",
-                              quoted(fmt::format("{} * {}", text_.substr(begin, number_end - begin), rest)))
+                              quote(fmt::format("{} * {}", text_.substr(begin, number_end - begin), rest)))
                 : std::string());
     } else {
       return push(TokenKind::number, begin);
@@ -314,7 +314,7 @@ class Lexer {
     for (const ForeignSpelling& spelling : foreign) {
       if (!looking_at(spelling.text) || looking_at("<=")) continue;
       at_ += spelling.text.size();
-      error(begin, at_, fmt::format("unexpected {}", quoted(spelling.text)), std::string(spelling.hint));
+      error(begin, at_, fmt::format("unexpected {}", quote(spelling.text)), std::string(spelling.hint));
       return push(TokenKind::malformed, begin);
     }
     for (const Spelling& symbol : symbols) {
@@ -332,7 +332,7 @@ class Lexer {
       error(begin, at_,
             fmt::format("unexpected character {}", needs_escape(code_point.value)
                                                        ? fmt::format("U+{:04X}", code_point.value)
-                                                       : quoted(text_.substr(begin, code_point.length))),
+                                                       : quote(text_.substr(begin, code_point.length))),
             code_point.value >= 0x80 ? "characters outside ASCII may stand in comments only" : "");
     }
     push(TokenKind::malformed, begin);
@@ -364,7 +364,7 @@ std::string_view spelling(TokenKind kind) {
 
 bool is_keyword(TokenKind kind) { return kind >= TokenKind::keyword_predicate; }
 
-std::string quoted(std::string_view text) {
+std::string quote(std::string_view text) {
   constexpr std::size_t longest = 60;
   if (text.size() <= longest) return fmt::format("`{}`", text);
   std::size_t end = longest - 3;

@@ -92,6 +92,6 @@ std::string_view spelling(TokenKind kind);
 bool is_keyword(TokenKind kind);
 
 /// A piece of source text in back quotes for a message; long text is cut.
-std::string quoted(std::string_view text);
+std::string quote(std::string_view text);
 
 }  // namespace tightrope::dsl

@@ -87,7 +87,7 @@ class ExpressionParser {
     if (cursor_.kind() == TokenKind::plus || cursor_.kind() == TokenKind::minus) {
       cursor_.error(
           cursor_.span(cursor_.peek()),
-          fmt::format("`at` takes a product: what {} belongs to is unclear", quoted(cursor_.text(cursor_.peek()))),
+          fmt::format("`at` takes a product: what {} belongs to is unclear", quote(cursor_.text(cursor_.peek()))),
           "write `(P at s) + Q` or `P at (s + q)`");
       return {};
     }
@@ -169,7 +169,7 @@ class ExpressionParser {
     if (token.kind == TokenKind::plus) hint = "leave the `+` out";
     if (token.kind == TokenKind::bar) hint = "an absolute value is written `abs(x)`";
     if (is_keyword(token.kind) && !token.starts_line) {
-      hint = fmt::format("{} is a keyword and cannot be a name", quoted(cursor_.text(token)));
+      hint = fmt::format("{} is a keyword and cannot be a name", quote(cursor_.text(token)));
     }
     cursor_.expected("an expression", std::move(hint));
     return {};

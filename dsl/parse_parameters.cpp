@@ -48,7 +48,7 @@ class ParameterParser {
     parameter.name = cursor_.text(*name);
     parameter.span = cursor_.span(*name);
     if (type_needed_ && parameter.kind == ParameterDecl::Kind::unspecified) {
-      cursor_.error(parameter.span, fmt::format("the parameter {} has no type", quoted(parameter.name)),
+      cursor_.error(parameter.span, fmt::format("the parameter {} has no type", quote(parameter.name)),
                     fmt::format("write `point {0}`, `vec3 {0}` or `scalar {0}`", parameter.name));
       type_needed_ = false;  // said once
     }
@@ -60,7 +60,7 @@ class ParameterParser {
     }
     parameters.push_back(std::move(parameter));
     if (complete && cursor_.kind() != TokenKind::comma && cursor_.kind() != TokenKind::right_parenthesis) {
-      cursor_.expected(fmt::format("`,` or `)` after the parameter {}", quoted(parameters.back().name)));
+      cursor_.expected(fmt::format("`,` or `)` after the parameter {}", quote(parameters.back().name)));
       complete = false;
     }
     return complete;
@@ -100,7 +100,7 @@ class ParameterParser {
         TokenKind::keyword_scalar, TokenKind::keyword_vec2,    TokenKind::keyword_vec3,   TokenKind::keyword_point,
         TokenKind::keyword_point2, TokenKind::keyword_bounded, TokenKind::keyword_moving, TokenKind::keyword_static};
     const TokenKind nearest = cursor_.nearest(keywords);
-    cursor_.error(cursor_.span(cursor_.peek()), fmt::format("unknown type {}", quoted(cursor_.text(cursor_.peek()))),
+    cursor_.error(cursor_.span(cursor_.peek()), fmt::format("unknown type {}", quote(cursor_.text(cursor_.peek()))),
                   nearest == TokenKind::identifier ? "the types are `scalar`, `vec2`, `vec3`, `point` and `point2`"
                                                    : fmt::format("did you mean `{}`?", spelling(nearest)));
     cursor_.take();

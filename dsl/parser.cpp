@@ -167,7 +167,7 @@ class ModuleParser {
     } while (cursor_.accept(TokenKind::comma));
     if (without_motion == changes.size()) return true;
     const std::string& last = changes.back().parameter;
-    cursor_.expected(fmt::format("`: static` or `: moving` after {}", quoted(last)));
+    cursor_.expected(fmt::format("`: static` or `: moving` after {}", quote(last)));
     return false;
   }
 

@@ -61,9 +61,7 @@ void TokenCursor::expected(std::string_view what, std::string hint) {
 void TokenCursor::expected_here(std::string_view what, std::string hint) {
   if (last_error_at_ == at_ || kind() == TokenKind::malformed) return;
   const Token& token = peek();
-  const std::string found = at_end()                          ? "the end of the file"
-                            : token.kind == TokenKind::string ? "a string"
-                                                              : quoted(text(token));
+  const std::string found = token.kind == TokenKind::string ? "a string" : quote(text(token));
   error(span(token), fmt::format("expected {}, found {}", what, found), std::move(hint));
 }
 
@@ -85,7 +83,7 @@ const Token* TokenCursor::expect_name(std::string_view what) {
   if (at_name()) return &take();
   if (is_keyword(kind()) && !peek().starts_line) {
     if (last_error_at_ != at_) {
-      error(span(peek()), fmt::format("{} is a keyword and cannot be a name", quoted(text(peek()))));
+      error(span(peek()), fmt::format("{} is a keyword and cannot be a name", quote(text(peek()))));
     }
     return &take();
   }
