@@ -204,17 +204,17 @@ TEST(Hdf5, TruncatedAndDamagedFilesAreNoCrash) {
   }
   const std::string whole = text_of(path);
   ASSERT_EQ(read(path).error, "");
-  for (std::size_t length = 0; length < whole.size(); length += 997) {
+  for (std::size_t length = 0; length < whole.size(); length += 4999) {
     const std::string file = scratch.write("cut.h5", whole.substr(0, length));
     EXPECT_NE(read(file).error, "") << length;
   }
   int errors = 0;
-  for (std::size_t at = 0; at < 4096; at += 3) {
+  for (std::size_t at = 0; at < 4096; at += 17) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(~damaged[at]);
     errors += read(scratch.write("damaged.h5", damaged)).error.empty() ? 0 : 1;
   }
-  EXPECT_GT(errors, 20);
+  EXPECT_GT(errors, 10);
   EXPECT_EQ(
       read(scratch.write("text.h5", "not HDF5")).error,
       (scratch.path() / "text.h5").string() + ": not a readable HDF5 file (truncated, damaged or of another format)");
