@@ -9,10 +9,11 @@
 
 namespace tightrope::ccd::oracle {
 
-/// The exact time of first contact in [0, 1], as an isolating interval; lower == upper where the time is that double.
+/// The exact time of first contact in [0, 1] between neighbouring doubles, by exact sign tests; lower == upper where the
+/// time is that double.
 struct Contact {
-  double lower;  ///< largest double not above the time that was certified
-  double upper;  ///< a double not below it
+  double lower;  ///< the largest double not above the time
+  double upper;  ///< the smallest double not below it
 };
 
 /// Decides a query exactly; `points` as in collides(Kind, const double*), 24 finite numbers. Empty: no contact.
