@@ -107,6 +107,29 @@ std::string comment_text(std::string_view text) {
   return result;
 }
 
+std::string comment_lines(std::string_view indent, std::string_view text) {
+  const std::string safe = comment_text(text);
+  std::string result;
+  std::string line = fmt::format("{}//", indent);
+  const std::size_t start = safe.find_first_not_of(' ');
+  const std::string blanks(start == std::string::npos ? 0 : std::max<std::size_t>(start, 1), ' ');
+  std::string gap = blanks;
+  for (std::size_t begin = start; begin < safe.size();) {
+    const std::size_t end = std::min(safe.find(' ', begin), safe.size());
+    const std::string_view word = std::string_view(safe).substr(begin, end - begin);
+    if (gap == " " && line.size() + 1 + word.size() > line_length) {
+      result += line + '\n';
+      line = fmt::format("{}//{}  ", indent, blanks);
+      gap.clear();
+    }
+    line += gap;
+    line += word;
+    gap = " ";
+    begin = end + 1;
+  }
+  return result + line + '\n';
+}
+
 std::string wrap(std::string_view head, const std::vector<std::string>& words) {
   std::string result;
   std::string line(head);

@@ -33,6 +33,9 @@ std::string literal(double value, Precision precision);
 /// Text that may stand in a `//` comment: no line ends, no backslash at the end, no bidirectional controls.
 std::string comment_text(std::string_view text);
 
+/// "// ..." lines of at most 120 columns behind `indent`, with line ends; continued lines stand two further in.
+std::string comment_lines(std::string_view indent, std::string_view text);
+
 /// `head`, then the words separated by blanks, broken to lines of at most 120 columns that start below the first word.
 std::string wrap(std::string_view head, const std::vector<std::string>& words);
 

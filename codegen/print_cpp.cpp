@@ -17,6 +17,9 @@ using dsl::Node;
 using dsl::NodeId;
 using dsl::Op;
 
+/// Characters of an output's expression that are repeated in a comment.
+constexpr std::size_t longest_quotation = 500;
+
 /// x * 2^exponent as multiplications by powers of two that the format holds. One factor does unless 2^exponent leaves
 /// the exponent range. Then several do, and the result is still rounded at most once: upwards they are exact up to the
 /// overflow of the result itself; downwards the first, 2^min_normal, is inexact only for |x| < 1, where what remains
@@ -197,7 +200,9 @@ void PredicatePrinter::print_results() {
   for (const dsl::Stage& stage : predicate_.stages) {
     line(fmt::format("\n  struct {}_result {{", stage.name));
     for (const dsl::Output& output : stage.outputs) {
-      line(fmt::format("    // {} {}", output.sign ? "sign" : "value", comment_text(output.text)));
+      const std::string_view text = std::string_view(output.text).substr(0, longest_quotation);
+      const std::string_view rest = text.size() < output.text.size() ? " ..." : "";
+      out_ += comment_lines("    ", fmt::format("{} {}{}", output.sign ? "sign" : "value", text, rest));
       line(fmt::format("    Bounded<{}> {}{};", real_, output.name, extents_text(output.extents)));
     }
     line("  };");
@@ -297,8 +302,7 @@ std::string PredicatePrinter::print() {
   line("");
   for (std::size_t begin = 0; begin < predicate_.doc.size();) {
     const std::size_t end = std::min(predicate_.doc.find('\n', begin), predicate_.doc.size());
-    const std::string text = comment_text(std::string_view(predicate_.doc).substr(begin, end - begin));
-    line(text.empty() ? "//" : text[0] == ' ' ? "//" + text : "// " + text);
+    out_ += comment_lines("", std::string_view(predicate_.doc).substr(begin, end - begin));
     begin = end + 1;
   }
   line("template <class Bound, class Real>");
@@ -324,15 +328,15 @@ std::string PredicatePrinter::summary() const {
   const std::vector<Cost> costs = stage_costs(bounded_, schedule_);
   for (std::size_t s = 0; s < predicate_.stages.size(); ++s) {
     const dsl::Stage& stage = predicate_.stages[s];
-    result += fmt::format("//   {}: operations for values {}, for bounds {}\n", stage.name, text(costs[s].value),
-                          text(costs[s].bound));
+    result += fmt::format("//   {}\n//     operations for values {}\n//     operations for bounds {}\n", stage.name,
+                          text(costs[s].value), text(costs[s].bound));
     for (std::size_t o = 0; o < stage.outputs.size(); ++o) {
       const OutputBound& bound = bounded_.stages[s].outputs[o];
-      result += fmt::format("//     {}{}: degree {} in t", stage.outputs[o].name,
-                            extents_text(stage.outputs[o].extents), stage.outputs[o].degree);
-      if (options_.mode == BoundMode::safe) result += fmt::format(", k = {}, B = {}", bound.roundings, bound.magnitude);
-      result += '\n';
-      if (!bound.assumption.empty()) result += fmt::format("//       {}\n", comment_text(bound.assumption));
+      std::string facts = fmt::format("     {}{}: degree {} in t", stage.outputs[o].name,
+                                      extents_text(stage.outputs[o].extents), stage.outputs[o].degree);
+      if (options_.mode == BoundMode::safe) facts += fmt::format(", k = {}, B = {}", bound.roundings, bound.magnitude);
+      if (!bound.assumption.empty()) facts += "; " + bound.assumption;
+      result += comment_lines("", facts);
     }
   }
   return result;

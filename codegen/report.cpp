@@ -148,7 +148,8 @@ std::string report(const dsl::Program& program, const std::vector<BoundedProgram
       if (options.json) {
         json.push_back(to_json(entry));
       } else {
-        text += (text.empty() ? "" : "\n") + to_text(entry);
+        if (!text.empty()) text += '\n';
+        text += to_text(entry);
       }
     }
   }

@@ -31,7 +31,7 @@ struct Schedule {
 
 /// Every stage computes what its outputs need and no earlier stage has computed, each node once. The order keeps few
 /// values alive: depth first from the outputs, the operand that needs more registers first [Sethi, Ullman 1970] (a
-/// heuristic on a graph with shared nodes), and an output's value before its bound. Inputs and constants have no steps.
+/// heuristic on a graph with shared nodes), and an output's bound before its value. Inputs and constants have no steps.
 Schedule schedule(const BoundedPredicate& predicate);
 
 }  // namespace tightrope::codegen
