@@ -109,7 +109,7 @@ Value apply_diff(ExpressionElaborator& e, const Expr&, Arguments a) {
 }
 
 Value apply_elevate(ExpressionElaborator& e, const Expr& call, Arguments a) {
-  const auto degree = e.whole_number(a[1], call.span, "a degree");
+  const auto degree = e.whole_number(a[1], e.operand_span(call, 1), "a degree");
   if (!degree) return {};
   if (*degree < a[0].degree()) {
     e.error(call.span, fmt::format("cannot elevate {} to degree {}", describe(a[0]), *degree),

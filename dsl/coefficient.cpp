@@ -64,6 +64,11 @@ std::optional<NodeId> constant_node(Lowering& low, const Rational& value) {
   return std::nullopt;
 }
 
+/// The whole number that makes `value` whole: 10 of 3/10.
+Rational denominator(const Rational& value) {
+  return Rational::quotient(value.odd_denominator(), 1) * Rational::power_of_two(std::max(-value.exponent(), 0));
+}
+
 NodeId unrepresentable(Lowering& low, const Coefficient& a) {
   if (!low.unrepresentable) low.unrepresentable = a;
   return a.is_number() ? low.graph.constant(0) : a.node;
@@ -72,7 +77,7 @@ NodeId unrepresentable(Lowering& low, const Coefficient& a) {
 NodeId materialise_number(Lowering& low, const Coefficient& a) {
   if (const auto node = constant_node(low, a.factor)) return *node;
   if (a.literal) return unrepresentable(low, a);
-  const Rational q = Rational::quotient(a.factor.odd_denominator(), 1);
+  const Rational q = denominator(a.factor);
   const auto n = constant_node(low, a.factor * q);
   const auto d = constant_node(low, q);
   if (q.is_one() || !n || !d) return unrepresentable(low, a);
@@ -152,13 +157,12 @@ Coefficient divide(Lowering& low, const Coefficient& a, const Coefficient& b) {
   }
   // A number over a run-time value: as much of the quotient's factor as a constant holds becomes the numerator.
   const Rational factor = a.factor / b.factor;
-  const Rational numerator = factor.valid() ? factor * Rational::quotient(factor.odd_denominator(), 1) : factor;
-  const auto constant = constant_node(low, numerator);
-  if (!constant) {
-    return checked(low, {.factor = factor, .node = low.graph.binary(Op::div, low.graph.constant(1), b.node)});
+  if (!factor.valid()) return checked(low, {.factor = factor, .node = b.node});
+  const Rational rest = factor.odd_denominator() == 1 ? Rational(1) : Rational(1) / denominator(factor);
+  if (const auto numerator = constant_node(low, factor / rest)) {
+    return {.factor = rest, .node = low.graph.binary(Op::div, *numerator, b.node)};
   }
-  return {.factor = Rational::quotient(1, factor.odd_denominator()),
-          .node = low.graph.binary(Op::div, *constant, b.node)};
+  return {.factor = factor, .node = low.graph.binary(Op::div, low.graph.constant(1), b.node)};
 }
 
 void share_factor(Lowering& low, std::span<Coefficient> coefficients) {

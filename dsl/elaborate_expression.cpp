@@ -117,7 +117,14 @@ std::optional<std::pair<std::int64_t, std::int64_t>> ExpressionElaborator::loop_
 
 Value ExpressionElaborator::evaluate(const Module& module, ExprRange range, Scope& scope) {
   if (range.empty()) return {};
-  const ComprehensionBodies& bodies = bodies_.at(&module);
+  const Module* const outer = std::exchange(module_, &module);
+  Value result = evaluate_nodes(range, scope);
+  module_ = outer;
+  return result;
+}
+
+Value ExpressionElaborator::evaluate_nodes(ExprRange range, Scope& scope) {
+  const ComprehensionBodies& bodies = bodies_.at(module_);
   std::vector<Value> values(static_cast<std::size_t>(range.end - range.begin));
   std::vector<Value> operands;
   for (ExprId id = range.begin; id < range.end && !aborted_;) {
@@ -125,7 +132,7 @@ Value ExpressionElaborator::evaluate(const Module& module, ExprRange range, Scop
       id = end;
       continue;
     }
-    const Expr& expr = module.exprs[static_cast<std::size_t>(id)];
+    const Expr& expr = module_->exprs[static_cast<std::size_t>(id)];
     operands.clear();
     bool poisoned = false;
     for (const ExprId operand : expr.operands) {  // each node has one user, so its value can move there
@@ -133,16 +140,17 @@ Value ExpressionElaborator::evaluate(const Module& module, ExprRange range, Scop
       poisoned |= operands.back().poisoned();
     }
     Value& value = values[static_cast<std::size_t>(id - range.begin)];
-    if (!poisoned) value = apply(module, expr, operands, scope);
-    if (!value.poisoned()) value = checked(std::move(value), expr.span);
+    if (!poisoned) value = apply(expr, operands, scope);
+    if (!value.poisoned()) {
+      value = checked(std::move(value), low_.unrepresentable ? literal_span(expr) : expr.span);
+    }
     if (!charge(1 + value.coefficient_count() / 4, expr.span)) return {};
     ++id;
   }
   return aborted_ ? Value{} : std::move(values.back());
 }
 
-Value ExpressionElaborator::apply(const Module& module, const Expr& expr, std::span<const Value> operands,
-                                  Scope& scope) {
+Value ExpressionElaborator::apply(const Expr& expr, std::span<const Value> operands, Scope& scope) {
   switch (expr.kind) {
     case ExprKind::number:
       return apply_literal(expr);
@@ -174,9 +182,18 @@ Value ExpressionElaborator::apply(const Module& module, const Expr& expr, std::s
     case ExprKind::array:
       return apply_array(expr, operands);
     case ExprKind::comprehension:
-      return apply_comprehension(module, expr, operands, scope);
+      return apply_comprehension(expr, operands, scope);
   }
   return {};
+}
+
+SourceSpan ExpressionElaborator::literal_span(const Expr& expr) const {
+  for (const ExprId operand : expr.operands) {
+    const Expr* e = &module_->exprs[static_cast<std::size_t>(operand)];
+    while (e->kind == ExprKind::negate) e = &module_->exprs[static_cast<std::size_t>(e->operands[0])];
+    if (e->kind == ExprKind::number && !Rational::parse(e->text).value_or(0).to_double()) return e->span;
+  }
+  return expr.span;
 }
 
 Value ExpressionElaborator::apply_literal(const Expr& expr) {
@@ -207,12 +224,10 @@ Value ExpressionElaborator::apply_array(const Expr& expr, std::span<const Value>
   return make_array(std::move(values));
 }
 
-Value ExpressionElaborator::apply_comprehension(const Module& module, const Expr& expr, std::span<const Value> bounds,
-                                                Scope& scope) {
+Value ExpressionElaborator::apply_comprehension(const Expr& expr, std::span<const Value> bounds, Scope& scope) {
   Level level(*this);
   if (!level.allowed(expr.span)) return {};
-  const auto span_of = [&](std::size_t i) { return module.exprs[static_cast<std::size_t>(expr.operands[i])].span; };
-  const auto range = loop_bounds(bounds[0], span_of(0), bounds[1], span_of(1));
+  const auto range = loop_bounds(bounds[0], operand_span(expr, 0), bounds[1], operand_span(expr, 1));
   if (!range) return {};
   if (range->first == range->second) {
     error(expr.span, fmt::format("this array is empty: no number from {} on is below {}", range->first, range->second));
@@ -223,7 +238,7 @@ Value ExpressionElaborator::apply_comprehension(const Module& module, const Expr
   for (std::int64_t i = range->first; i < range->second; ++i) {
     const std::size_t mark = scope.mark();
     scope.bind(expr.text, scalar(number(i)));
-    values.push_back(evaluate(module, {expr.body_begin, expr.body_end}, scope));
+    values.push_back(evaluate_nodes({expr.body_begin, expr.body_end}, scope));
     scope.leave(mark);
     if (aborted_) return {};
     poisoned |= values.back().poisoned();
@@ -254,14 +269,14 @@ bool ExpressionElaborator::bind_arguments(const FunctionEntry& function, const E
                                           std::span<const Value> arguments, Scope& scope) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const ParameterDecl& parameter = function.declaration->parameters[i];
-    if (!fits_parameter(function, parameter, call, arguments[i])) return false;
+    if (!fits_parameter(function, parameter, call, i, arguments[i])) return false;
     scope.bind(parameter.name, arguments[i]);
   }
   return true;
 }
 
 bool ExpressionElaborator::fits_parameter(const FunctionEntry& function, const ParameterDecl& parameter,
-                                          const Expr& call, const Value& argument) {
+                                          const Expr& call, std::size_t position, const Value& argument) {
   std::string wanted;
   bool fits = true;
   std::vector<int> extents;
@@ -291,7 +306,7 @@ bool ExpressionElaborator::fits_parameter(const FunctionEntry& function, const P
     fits = fits && argument.degree() <= degree;
   }
   if (!fits) {
-    error(call.span,
+    error(operand_span(call, position),
           fmt::format("`{}` takes {} as `{}`, not {}", call.text, wanted, parameter.name, describe(argument)));
   }
   return fits;

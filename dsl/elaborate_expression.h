@@ -68,12 +68,21 @@ class ExpressionElaborator {
     ExpressionElaborator& elaborator_;
   };
 
+  /// Where operand `i` of the expression that is being elaborated stands.
+  SourceSpan operand_span(const Expr& expr, std::size_t i) const {
+    return module_->exprs[static_cast<std::size_t>(expr.operands[i])].span;
+  }
+
+  /// Where the literal among the operands stands, or the expression itself.
+  SourceSpan literal_span(const Expr& expr) const;
+
   Lowering& lowering() { return low_; }
   const ElaborateOptions& options() const { return options_; }
   Reporter& reporter() { return reporter_; }
 
  private:
-  Value apply(const Module& module, const Expr& expr, std::span<const Value> operands, Scope& scope);
+  Value evaluate_nodes(ExprRange range, Scope& scope);
+  Value apply(const Expr& expr, std::span<const Value> operands, Scope& scope);
   Value apply_literal(const Expr& expr);
   Value apply_name(const Expr& expr, const Scope& scope);
   Value apply_sum(const Expr& expr, const Value& a, const Value& b);
@@ -83,11 +92,11 @@ class ExpressionElaborator {
   Value apply_index(const Expr& expr, const Value& a, const Value& b);
   Value apply_component(const Expr& expr, const Value& a);
   Value apply_array(const Expr& expr, std::span<const Value> operands);
-  Value apply_comprehension(const Module& module, const Expr& expr, std::span<const Value> bounds, Scope& scope);
+  Value apply_comprehension(const Expr& expr, std::span<const Value> bounds, Scope& scope);
   Value apply_call(const Expr& expr, std::span<const Value> arguments);
   bool bind_arguments(const FunctionEntry& function, const Expr& call, std::span<const Value> arguments, Scope& scope);
   bool fits_parameter(const FunctionEntry& function, const ParameterDecl& parameter, const Expr& call,
-                      const Value& argument);
+                      std::size_t position, const Value& argument);
   void run_lets(const Module& module, const std::vector<Statement>& statements, Scope& scope);
 
   const Declarations& declarations_;
@@ -95,6 +104,7 @@ class ExpressionElaborator {
   const ElaborateOptions& options_;
   Reporter& reporter_;
   Lowering low_;
+  const Module* module_ = nullptr;  ///< that of the expression that is being elaborated
   std::size_t work_ = 0;
   int depth_ = 0;
   bool aborted_ = false;

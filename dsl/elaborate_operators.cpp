@@ -54,7 +54,7 @@ Value ExpressionElaborator::apply_quotient(const Expr& expr, const Value& a, con
     return {};
   }
   if (const auto divisor = as_number(b); divisor && divisor->is_zero()) {
-    error(expr.span, "division by zero");
+    error(operand_span(expr, 1), "division by zero");
     return {};
   }
   const Coefficient& divisor = b.elements.front().coefficients.front();
@@ -63,7 +63,7 @@ Value ExpressionElaborator::apply_quotient(const Expr& expr, const Value& a, con
 
 Value ExpressionElaborator::apply_power(const Expr& expr, const Value& a, const Value& b) {
   constexpr std::int64_t max_exponent = 1'000'000;
-  const auto exponent = whole_number(b, expr.span, "an exponent");
+  const auto exponent = whole_number(b, operand_span(expr, 1), "an exponent");
   if (!exponent) return {};
   if (const auto base = as_number(a)) {
     if (base->is_zero() && *exponent < 0) {
@@ -79,7 +79,7 @@ Value ExpressionElaborator::apply_power(const Expr& expr, const Value& a, const 
     return {};
   }
   if (*exponent < 0 || *exponent > max_exponent) {
-    error(expr.span, fmt::format("the exponent {} is not between 0 and {}", *exponent, max_exponent),
+    error(operand_span(expr, 1), fmt::format("the exponent {} is not between 0 and {}", *exponent, max_exponent),
           *exponent < 0 ? "a reciprocal is written `1 / x`" : "");
     return {};
   }
@@ -108,10 +108,11 @@ Value ExpressionElaborator::apply_index(const Expr& expr, const Value& a, const 
           a.degree() > 0 ? "a Bernstein coefficient is written `coefficients(P)[i]`" : "");
     return {};
   }
-  const auto index = whole_number(b, expr.span, "an index");
+  const auto index = whole_number(b, operand_span(expr, 1), "an index");
   if (!index) return {};
   if (*index < 0 || *index >= count) {
-    error(expr.span, fmt::format("there is no element {}: {} has elements 0 to {}", *index, describe(a), count - 1));
+    error(operand_span(expr, 1),
+          fmt::format("there is no element {}: {} has elements 0 to {}", *index, describe(a), count - 1));
     return {};
   }
   const int i = static_cast<int>(*index);
@@ -138,14 +139,16 @@ namespace {
 /// The weights of the place r or r / whole, or empty after an error.
 std::optional<Weights> place_weights(ExpressionElaborator& elaborator, const Expr& expr, const Value& r,
                                      const Value* whole) {
-  for (const Value* v : {&r, whole}) {
-    if (v == nullptr || (v->is_scalar() && v->degree() == 0)) continue;
-    elaborator.error(expr.span, fmt::format("a polynomial has values at scalars of degree 0, not at {}", describe(*v)));
+  for (std::size_t i = 1; i <= (whole == nullptr ? 1 : 2); ++i) {
+    const Value* v = i == 1 ? &r : whole;
+    if (v->is_scalar() && v->degree() == 0) continue;
+    elaborator.error(elaborator.operand_span(expr, i),
+                     fmt::format("a polynomial has values at scalars of degree 0, not at {}", describe(*v)));
     return std::nullopt;
   }
   const Coefficient whole_scalar = whole == nullptr ? number(1) : whole->elements.front().coefficients.front();
   if (whole_scalar.is_number() && whole_scalar.factor.is_zero()) {
-    elaborator.error(expr.span, "division by zero");
+    elaborator.error(elaborator.operand_span(expr, 2), "division by zero");
     return std::nullopt;
   }
   return weights(elaborator.lowering(), r.elements.front().coefficients.front(), whole_scalar);

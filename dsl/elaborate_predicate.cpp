@@ -268,7 +268,6 @@ void PredicateElaborator::add_output(const Statement& s, int stage, const std::s
   // Without `as` the statement's name span is that of the expression.
   const SourceSpan whole = s.name.empty() ? s.name_span : span_of(s.expr);
   output.text = s.expr.empty() ? "" : fold_white_space(reporter_.text(whole));
-  const bool named = name_output(s, target.name, suffix, output);
   const Value value = elaborator_.evaluate(module_, s.expr, scope_);
   if (!value.poisoned()) {
     output.extents = value.extents;
@@ -280,7 +279,7 @@ void PredicateElaborator::add_output(const Statement& s, int stage, const std::s
     }
     elaborator_.checked(value, span_of(s.expr));
   }
-  if (named) target.outputs.push_back(std::move(output));
+  if (name_output(s, target.name, suffix, output)) target.outputs.push_back(std::move(output));
 }
 
 /// False, with a diagnostic, if there is no good name for the output.
@@ -309,7 +308,16 @@ bool PredicateElaborator::name_output(const Statement& s, const std::string& sta
   return true;
 }
 
+/// Generated code makes `stage_result` and `stage_in_range` of a stage's name.
 void PredicateElaborator::check_stages() {
+  for (const Stage& s : result_.stages) {
+    for (const char* suffix : {"_result", "_in_range"}) {
+      const auto clash = stage_spans_.find(s.name + suffix);
+      if (clash == stage_spans_.end()) continue;
+      reporter_.error(clash->second, fmt::format("a stage cannot be called `{}`: generated code uses the name for `{}`",
+                                                 clash->first, s.name));
+    }
+  }
   if (result_.stages.empty()) {
     reporter_.error(request_.declaration->name_span, fmt::format("the predicate `{}` has no outputs", result_.name),
                     "outputs are given with `sign` and `value`");
