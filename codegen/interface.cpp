@@ -145,6 +145,14 @@ std::string wrap(std::string_view head, const std::vector<std::string>& words) {
   return result + line;
 }
 
+std::string wrap_call(std::string_view head, const std::vector<std::string>& words) {
+  const std::string aligned = wrap(head, words);
+  const std::size_t indent = std::min(head.find_first_not_of(' '), head.size()) + 4;
+  const std::string below = fmt::format("{}\n{}", head, wrap(std::string(indent, ' '), words));
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  return lines(below) < lines(aligned) ? below : aligned;
+}
+
 std::string extents_text(const std::vector<int>& extents) {
   std::string result;
   for (const int extent : extents) result += fmt::format("[{}]", extent);

@@ -39,6 +39,10 @@ std::string comment_lines(std::string_view indent, std::string_view text);
 /// `head`, then the words separated by blanks, broken to lines of at most 120 columns that start below the first word.
 std::string wrap(std::string_view head, const std::vector<std::string>& words);
 
+/// The same for a `head` that ends in an open parenthesis: the words start on the line below, four further in than
+/// `head`, if that takes fewer lines.
+std::string wrap_call(std::string_view head, const std::vector<std::string>& words);
+
 /// "[4][3]"
 std::string extents_text(const std::vector<int>& extents);
 

@@ -166,8 +166,8 @@ std::string PredicatePrinter::signature(std::size_t stage, bool with_suffix, con
     words.push_back(fmt::format("{}State& {}", last ? "const " : "", state_used ? "state" : "/*state*/"));
   }
   for (std::size_t i = 0; i < words.size(); ++i) words[i] += i + 1 < words.size() ? "," : ") noexcept {";
-  return wrap(fmt::format("  TIGHTROPE_FUNCTION static {}_result {}{}(", name, name, with_suffix ? "_in_range" : ""),
-              words);
+  return wrap_call(
+      fmt::format("  TIGHTROPE_FUNCTION static {}_result {}{}(", name, name, with_suffix ? "_in_range" : ""), words);
 }
 
 std::vector<bool> PredicatePrinter::used_arguments(std::size_t stage) const {
@@ -239,7 +239,7 @@ void PredicatePrinter::print_in_range() {
   }
   words.back().replace(words.back().size() - 3, 3, ";");
   line("\n  // Whether the inputs keep the declared ranges; false for NaN.");
-  line(wrap("  TIGHTROPE_FUNCTION static bool in_range(", parameters));
+  line(wrap_call("  TIGHTROPE_FUNCTION static bool in_range(", parameters));
   line(wrap("    return ", words));
   line("  }");
 }
@@ -253,7 +253,7 @@ void PredicatePrinter::print_checked_stage(std::size_t stage) {
   for (const Argument& argument : arguments_) names.push_back(argument.name + ",");
   std::vector<std::string> range_names = names;
   range_names.back().replace(range_names.back().size() - 1, 1, ")) {");
-  line(wrap("    if (!in_range(", range_names));
+  line(wrap_call("    if (!in_range(", range_names));
   if (several_stages_ && stage + 1 < predicate_.stages.size()) line("      state = State{};");
   line(fmt::format("      {}_result result;", source.name));
   for (const dsl::Output& output : source.outputs) line(fmt::format("      make_uncertain(result.{});", output.name));
@@ -261,7 +261,7 @@ void PredicatePrinter::print_checked_stage(std::size_t stage) {
   line("    }");
   if (several_stages_) names.push_back("state,");
   names.back().replace(names.back().size() - 1, 1, ");");
-  line(wrap(fmt::format("    return {}_in_range(", source.name), names));
+  line(wrap_call(fmt::format("    return {}_in_range(", source.name), names));
   line("  }");
 }
 
