@@ -92,7 +92,10 @@ std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl:
   }
   if (!request.depfile.empty()) {
     std::vector<std::string> targets;
-    for (const TextFile& file : files) targets.push_back(fs::absolute(file.path).lexically_normal().string());
+    for (const TextFile& file : files) {  // not the project file: ninja refuses targets that its rule does not declare
+      if (file.path.filename() == "CMakeLists.txt") continue;
+      targets.push_back(fs::absolute(file.path).lexically_normal().string());
+    }
     std::vector<std::string> prerequisites;
     for (const std::uint32_t file : program.files) {
       prerequisites.push_back(fs::absolute(sources.file(file).path).lexically_normal().string());
