@@ -1,5 +1,5 @@
 #pragma once
-/// Pairs of axis-aligned boxes that overlap, by sorting and sweeping along x.
+/// Pairs of axis-aligned boxes that overlap.
 
 #include <cstdint>
 #include <span>

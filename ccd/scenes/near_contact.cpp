@@ -92,7 +92,10 @@ void bring_near(Kind kind, Random& random, Query& query) {
   NearContact contact;
   contact.t = random.uniform();
   random_weights(kind, random, contact);
-  if (random.chance(0.5)) contact.offset = random.magnitude(-50, -4) * random_direction(random);
+  if (random.chance(0.5)) {
+    const double distance = random.magnitude(-50, -4);
+    contact.offset = distance * random_direction(random);
+  }
   bring_near(kind, contact, query);
 }
 
@@ -175,10 +178,10 @@ Query near_coplanar_query(Kind kind, Random& random) {
 Query needle_query(Kind kind, Random& random) {
   Query query = random_query(random);
   const double width = random.magnitude(-40, -4);
+  const double along = random.between(-0.5, 1.5);
   for (auto* points : {&query.start, &query.end}) {
     const Point across = random_direction(random);
     if (kind == Kind::vertex_face) {
-      const double along = random.between(-0.5, 1.5);
       (*points)[3] = (*points)[1] + along * ((*points)[2] - (*points)[1]) + width * across;
     } else {
       (*points)[3] = (*points)[2] + ((*points)[1] - (*points)[0]) + width * across;
