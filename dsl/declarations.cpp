@@ -129,17 +129,22 @@ class NameChecker {
     }
   }
 
-  std::string_view closest_of(std::string_view name, std::vector<std::string_view> candidates) {
+  /// The name in the tables closest to `name`, or empty; looked for only while the reporter allows.
+  template <class... Tables>
+  std::string_view closest_of(std::string_view name, const Tables&... tables) {
     if (!reporter_.may_suggest()) return {};
+    std::vector<std::string_view> candidates;
+    const auto take = [&](const auto& table) {
+      for (const auto& entry : table) candidates.push_back(entry.first);
+    };
+    (take(tables), ...);
     std::sort(candidates.begin(), candidates.end());  // tables are hashed; the answer shall not depend on their order
     return closest_name(name, candidates);
   }
 
   void check_name(const Expr& expr) {
     if (declarations_.incomplete || visible_.contains(expr.text)) return;
-    std::vector<std::string_view> candidates;
-    for (const auto& [name, count] : visible_) candidates.push_back(name);
-    const std::string_view closest = closest_of(expr.text, std::move(candidates));
+    const std::string_view closest = closest_of(expr.text, visible_);
     std::string hint = closest.empty() ? "" : fmt::format("did you mean `{}`?", closest);
     if (find_builtin(expr.text) != nullptr || declarations_.functions.contains(expr.text)) {
       hint = fmt::format("a function is called with its arguments, `{}(...)`", expr.text);
@@ -172,10 +177,9 @@ class NameChecker {
       return;
     }
     if (declarations_.incomplete) return;
-    std::vector<std::string_view> candidates;
-    for (const Builtin& b : builtins()) candidates.push_back(b.name);
-    for (const auto& [name, entry] : declarations_.functions) candidates.push_back(name);
-    const std::string_view closest = closest_of(expr.text, std::move(candidates));
+    std::vector<std::pair<std::string_view, int>> of_language;
+    for (const Builtin& b : builtins()) of_language.emplace_back(b.name, 0);
+    const std::string_view closest = closest_of(expr.text, of_language, declarations_.functions);
     std::string hint = closest.empty() ? "" : fmt::format("did you mean `{}`?", closest);
     if (visible_.contains(expr.text)) hint = "it is the name of a value; an element of an array is written `a[i]`";
     reporter_.error(name_span, fmt::format("unknown function `{}`", expr.text), std::move(hint));

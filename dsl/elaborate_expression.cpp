@@ -13,7 +13,7 @@ namespace {
 
 constexpr int max_depth = 400;                      // of calls, loops and comprehensions in one another
 constexpr std::int64_t max_iterations = 1'000'000;  // of one loop
-constexpr std::size_t max_work = 8'000'000;         // expressions evaluated and coefficients made, in one predicate
+constexpr std::size_t max_work = 3'000'000;         // expressions evaluated and coefficients made, in one predicate
 
 }  // namespace
 
@@ -48,8 +48,8 @@ bool ExpressionElaborator::charge(std::size_t work, SourceSpan span) {
   if (aborted_) return false;
   work_ += work;
   if (work_ <= max_work) return true;
-  error(span, "unrolling loops and calls takes too many steps",
-        "loops are unrolled at compile time; this predicate would be too large");
+  error(span, "the predicate is too large: elaborating it takes too many steps",
+        "loops and calls are unrolled at compile time");
   aborted_ = true;
   return false;
 }
@@ -109,7 +109,7 @@ std::optional<std::pair<std::int64_t, std::int64_t>> ExpressionElaborator::loop_
   constexpr std::int64_t limit = std::int64_t{1} << 53;
   if (*begin < -limit || *end > limit || *end - *begin > max_iterations) {
     error(last_span, fmt::format("a loop may have at most {} iterations", max_iterations),
-          "loops are unrolled at compile time");
+          "loops and calls are unrolled at compile time");
     return std::nullopt;
   }
   return std::pair(*begin, std::max(*begin, *end));

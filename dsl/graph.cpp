@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <iterator>
@@ -71,20 +72,31 @@ namespace {
 
 bool is_commutative(Op op) { return op == Op::add || op == Op::mul || op == Op::min || op == Op::max; }
 
-}  // namespace
-
-std::size_t Graph::Hash::operator()(const Node& node) const {
+std::uint64_t hash(const Node& node) {
   std::uint64_t h = static_cast<std::uint64_t>(node.op);
   const auto mix = [&h](std::uint64_t word) {  // the finaliser of a 64-bit multiplicative hash, once a word
     h = (h ^ word) * 0x9E3779B97F4A7C15ull;
     h ^= h >> 32;
   };
-  mix(static_cast<std::uint32_t>(node.a));
-  mix(static_cast<std::uint32_t>(node.b));
-  mix(static_cast<std::uint32_t>(node.c));
-  mix(static_cast<std::uint32_t>(node.index));
+  mix((std::uint64_t{static_cast<std::uint32_t>(node.a)} << 32) | static_cast<std::uint32_t>(node.b));
+  mix((std::uint64_t{static_cast<std::uint32_t>(node.c)} << 32) | static_cast<std::uint32_t>(node.index));
   mix(std::bit_cast<std::uint64_t>(node.value));
-  return static_cast<std::size_t>(h);
+  return h;
+}
+
+}  // namespace
+
+/// Where `node` stands in the table, or the free slot where it would.
+std::size_t Graph::slot_of(const Node& node) const {
+  const std::size_t mask = table_.size() - 1;
+  std::size_t slot = static_cast<std::size_t>(hash(node)) & mask;
+  while (table_[slot] != no_node && !(nodes_[static_cast<std::size_t>(table_[slot])] == node)) slot = (slot + 1) & mask;
+  return slot;
+}
+
+void Graph::grow() {
+  table_.assign(std::max<std::size_t>(64, 2 * table_.size()), no_node);
+  for (NodeId id = 0; id < size(); ++id) table_[slot_of(nodes_[static_cast<std::size_t>(id)])] = id;
 }
 
 NodeId Graph::intern(const Node& wanted) {
@@ -93,9 +105,13 @@ NodeId Graph::intern(const Node& wanted) {
   if (node.value == 0) node.value = 0;  // -0 is stored as +0, so that equality and hash agree
   if (is_commutative(node.op) && node.a > node.b) std::swap(node.a, node.b);
   assert(node.a < size() && node.b < size() && node.c < size() && "operands stand before their users");
-  const auto [place, inserted] = interned_.try_emplace(node, size());
-  if (inserted) nodes_.push_back(node);
-  return place->second;
+  if (2 * nodes_.size() >= table_.size()) grow();
+  NodeId& id = table_[slot_of(node)];
+  if (id == no_node) {
+    id = size();
+    nodes_.push_back(node);
+  }
+  return id;
 }
 
 NodeId Graph::input(std::int32_t slot) { return intern({.op = Op::input, .index = slot}); }

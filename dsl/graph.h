@@ -1,9 +1,9 @@
 #pragma once
 /// The scalar graph: a flat arena of small value nodes, hash-consed on construction, operands before users.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace tightrope::dsl {
@@ -12,27 +12,27 @@ using NodeId = std::int32_t;
 inline constexpr NodeId no_node = -1;
 
 enum class Op : std::uint8_t {
-  input,     ///< input slot `index`
-  constant,  ///< `value`, exact
-  add,       ///< a + b
-  sub,       ///< a - b
-  neg,       ///< -a, exact
-  mul,       ///< a * b
-  mul_pow2,  ///< a * 2^index, exact but for underflow and overflow
-  div,       ///< a / b
-  sqrt,      ///< sqrt(a)
-  abs,       ///< |a|, exact
-  min,       ///< exact; NaN if an operand is NaN
-  max,       ///< exact; NaN if an operand is NaN
-  fma,       ///< a * b + c, rounded once
+  input,          ///< input slot `index`
+  constant,       ///< `value`, exact
+  add,            ///< a + b
+  sub,            ///< a - b
+  neg,            ///< -a, exact
+  mul,            ///< a * b
+  mul_pow2,       ///< a * 2^index, exact but for underflow and overflow
+  div,            ///< a / b
+  sqrt,           ///< sqrt(a)
+  abs,            ///< |a|, exact
+  min,            ///< exact; NaN if an operand is NaN
+  max,            ///< exact; NaN if an operand is NaN
+  fma,            ///< a * b + c, rounded once
   max_magnitude,  ///< max(a, b) of non-negative numbers, may ignore a NaN (bounds only; see codegen/safe_bound.h)
 };
 
 struct Node {
   Op op = Op::constant;
   NodeId a = no_node, b = no_node, c = no_node;
-  std::int32_t index = 0;  ///< input: the slot; mul_pow2: the exponent
-  double value = 0;        ///< constant
+  std::int32_t index = 0;                        ///< input: the slot; mul_pow2: the exponent
+  double value = 0;                              ///< constant
   bool operator==(const Node&) const = default;  // note: Graph never stores NaN constants; -0 is stored as +0
 };
 
@@ -61,11 +61,11 @@ class Graph {
   NodeId size() const { return static_cast<NodeId>(nodes_.size()); }
 
  private:
-  struct Hash {
-    std::size_t operator()(const Node& node) const;
-  };
+  std::size_t slot_of(const Node& node) const;
+  void grow();
+
   std::vector<Node> nodes_;
-  std::unordered_map<Node, NodeId, Hash> interned_;
+  std::vector<NodeId> table_;  ///< open addressing, a power of two of slots at most half full; no_node: free
 };
 
 /// One line a node, "%7 = mul %3 %5"; the text that tests compare.

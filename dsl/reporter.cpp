@@ -19,7 +19,8 @@ std::string Reporter::place(SourceSpan span) const {
 }
 
 void Reporter::error(SourceSpan span, std::string message, std::string hint) {
-  if (!reported_.insert(span).second) return;
+  if (errors_left_ == 0 || !reported_.insert(span).second) return;
+  --errors_left_;
   if (hint.empty() && !context_.empty())
     hint = fmt::format("{} at {}", context_.back().what, place(context_.back().span));
   diagnostics_.error(span, std::move(message), std::move(hint));

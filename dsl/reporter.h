@@ -14,8 +14,8 @@ class Reporter {
  public:
   Reporter(const SourceMap& sources, Diagnostics& diagnostics) : sources_(sources), diagnostics_(diagnostics) {}
 
-  /// Reports unless something has been reported at this very place before. Without a hint of its own a diagnostic tells
-  /// how its place was reached, if through a call or an instance.
+  /// Reports unless something has been reported at this very place before, or very much already. Without a hint of its
+  /// own a diagnostic tells how its place was reached, if through a call or an instance.
   void error(SourceSpan span, std::string message, std::string hint = {});
   /// Whether to look for a name similar to an unknown one: for so many of them only, it takes time.
   bool may_suggest() { return suggestions_left_ > 0 && suggestions_left_-- > 0; }
@@ -58,7 +58,8 @@ class Reporter {
   Diagnostics& diagnostics_;
   std::unordered_set<SourceSpan, SpanHash, SpanEqual> reported_;
   std::vector<Entry> context_;
-  int suggestions_left_ = 200;
+  int suggestions_left_ = 40;
+  int errors_left_ = 1000;
 };
 
 }  // namespace tightrope::dsl
