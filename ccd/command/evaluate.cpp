@@ -29,7 +29,8 @@ void tell_notes(const Evaluation& evaluation) {
     warn(fmt::format("{} rational coordinates are no doubles and were rounded to nearest", evaluation.rounded));
   }
   if (evaluation.wrong_truths > 0) {
-    warn(fmt::format("the files tell another truth than exact arithmetic for {} queries", evaluation.wrong_truths));
+    warn(
+        fmt::format("the files tell a truth that is not the exact one for {} of the queries", evaluation.wrong_truths));
   }
   const bool known =
       std::all_of(evaluation.rows.begin(), evaluation.rows.end(), [](const auto& row) { return row.mistakes; });
