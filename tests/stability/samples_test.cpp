@@ -1,0 +1,79 @@
+/// The public CCD benchmark's sample queries [Wang, Ferguson, Schneider, Jiang, Attene, Panozzo 2021], where they are:
+/// the folder named by TIGHTROPE_SAMPLE_QUERIES, else ../shared/data/sample-queries beside the repository.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "scenes/truth.h"
+#include "tests/stability/query_folder.h"
+#include "tests/stability/show_query.h"
+
+namespace tightrope::ccd {
+namespace {
+
+std::optional<std::string> sample_folder() {
+  const char* named = std::getenv("TIGHTROPE_SAMPLE_QUERIES");
+  const std::string folder = named != nullptr ? named : TIGHTROPE_SOURCE_DIR "/../shared/data/sample-queries";
+  if (named == nullptr && !std::filesystem::is_directory(folder)) return std::nullopt;
+  return folder;
+}
+
+class Samples : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto folder = sample_folder();
+    if (!folder) GTEST_SKIP() << "skipped: no sample queries (TIGHTROPE_SAMPLE_QUERIES is not set)";
+    queries_ = queries_below(*folder);
+    ASSERT_GT(queries_[0].size() + queries_[1].size(), 0U);
+  }
+
+  struct Counts {
+    std::size_t false_positives = 0;
+    std::size_t false_negatives = 0;
+  };
+  static Counts count(const QueryBlock& block, Method method) {
+    std::vector<unsigned char> answers(block.size());
+    collides(block.kind, block.points.data(), block.size(), answers.data(), method);
+    Counts counts;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      counts.false_positives += answers[i] > block.truths[i] ? 1 : 0;
+      if (answers[i] >= block.truths[i]) continue;
+      ++counts.false_negatives;
+      if (counts.false_negatives <= 3) std::printf("missed: %s\n", show_query(block.points.data() + 24 * i).c_str());
+    }
+    return counts;
+  }
+
+  std::array<QueryBlock, 2> queries_;
+};
+
+TEST_F(Samples, TheOracleAgreesWithEveryTruth) {
+  for (const QueryBlock& block : queries_) {
+    std::vector<unsigned char> truths(block.size());
+    exact_truths(block.kind, block.points, truths);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      EXPECT_EQ(truths[i], block.truths[i]) << name(block.kind) << "\n" << show_query(block.points.data() + 24 * i);
+    }
+  }
+}
+
+TEST_F(Samples, ConservativeMethodsMissNothing) {
+  for (const QueryBlock& block : queries_) {
+    for (const MethodInfo& method : methods()) {
+      if (method.conservative) EXPECT_EQ(count(block, method.method).false_negatives, 0U) << method.name;
+    }
+  }
+}
+
+/// Of the part of the samples with 1,835 vertex-face and 3,049 edge-edge queries.
+TEST_F(Samples, TightHasNoMoreFalsePositivesThanTheRepairedScheme) {
+  if (queries_[0].size() != 1835 || queries_[1].size() != 3049) GTEST_SKIP() << "skipped: another part of the samples";
+  EXPECT_LE(count(queries_[0], Method::tight).false_positives, 43U);
+  EXPECT_LE(count(queries_[1], Method::tight).false_positives, 68U);
+}
+
+}  // namespace
+}  // namespace tightrope::ccd
