@@ -279,17 +279,42 @@ bool never_coplanar(Kind kind, const double* points, Signs& signs) {
   return false;
 }
 
-/// Any query: `points` holds 24 numbers. Not finite: true.
+/// Is one feature on one side of the other along a coordinate axis during the whole step (MATH 1.4 c)? Differences of
+/// points are linear in t, so the ends of the step decide, and the sign of a rounded difference is exact.
+template <class Signs>
+bool separated(Kind kind, const double* points, Signs& signs) {
+  using Pair = std::array<int, 2>;  // points of different features
+  static constexpr std::array<Pair, 3> vertex_face_pairs{{{0, 1}, {0, 2}, {0, 3}}};
+  static constexpr std::array<Pair, 4> edge_edge_pairs{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
+  const std::span<const Pair> pairs =
+      kind == Kind::vertex_face ? std::span<const Pair>(vertex_face_pairs) : std::span<const Pair>(edge_edge_pairs);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<Sign, 8> sides;
+    std::size_t count = 0;
+    for (const auto& [i, j] : pairs) {
+      const MovingPoint x = moving_point(points, i), y = moving_point(points, j);
+      sides[count++] = signs(Bounded<double>{y.t0[axis] - x.t0[axis], 0});
+      sides[count++] = signs(Bounded<double>{y.t1[axis] - x.t1[axis], 0});
+    }
+    if (common(std::span<const Sign>(sides).first(count)) != Sign::uncertain) return true;
+  }
+  return false;
+}
+
+/// Any query: `points` holds 24 numbers. Not finite: true. Contact needs coplanar points, no contradiction among the
+/// projected quadratics, and no separating axis (MATH 1.4); each is asked only where the ones before leave it open.
 template <class Bound, class Signs>
 bool collides(Kind kind, const double* points, Signs& signs) {
   if (has_moderate_coordinates(points)) {
     if (never_coplanar<typename FirstLook<Bound>::type>(kind, points, signs)) return false;
-    if (spread(points) >= least_spread) return may_touch<Bound>(kind, points, false, signs);
+    if (spread(points) >= least_spread) {
+      return may_touch<Bound>(kind, points, false, signs) && !separated(kind, points, signs);
+    }
   }
   const NormalizedQuery query = normalize(points);
   switch (query.kind) {
     case NormalizedQuery::Kind::scaled:
-      return may_touch<Bound>(kind, query.points.data(), true, signs);
+      return may_touch<Bound>(kind, query.points.data(), true, signs) && !separated(kind, points, signs);
     case NormalizedQuery::Kind::not_finite:
     case NormalizedQuery::Kind::coincident:
       return true;

@@ -93,6 +93,24 @@ TEST(Classification, MoreErosionNeverDecidesLess) {  // rejections only get fewe
   }
 }
 
+TEST(Classification, AnAxisSeparatesOnlyWhatStaysOnOneSideOfIt) {
+  SignReader reader;
+  for (const Kind kind : kinds) {
+    Random random(28);
+    for (int i = 0; i < 1000; ++i) {
+      Query query = test::miss(kind, random);
+      EXPECT_TRUE(separated(kind, query.data(), reader));
+      for (const std::size_t axis : {0U, 1U}) {  // where it touches: at one point of the boundary, at one time
+        const std::size_t end = 12 * static_cast<std::size_t>(random.whole(0, 1));
+        query[end + axis] = query[end + 9 + axis];
+      }
+      EXPECT_FALSE(separated(kind, query.data(), reader));
+    }
+    ContactGenerator generator(29);
+    for (int i = 0; i < 50'000; ++i) ASSERT_FALSE(separated(kind, generator.contact(kind).data(), reader));
+  }
+}
+
 TEST(Rescaling, IsExactAndKeepsSigns) {
   Random random(26);
   for (int i = 0; i < 100'000; ++i) {
