@@ -31,7 +31,9 @@ struct Schedule {
 
 /// Every stage computes what its outputs need and no earlier stage has computed, each node once. The order keeps few
 /// values alive: depth first from the outputs, the operand that needs more registers first [Sethi, Ullman 1970] (a
-/// heuristic on a graph with shared nodes), and an output's bound before its value. Inputs and constants have no steps.
+/// heuristic where nodes are shared), and an output's bound before its value, since the bound's terms want the values
+/// on the way. Compilers for x86 keep to the order they are given: of eight orders tried on vertex-face with TightBound
+/// (g++ 12 and clang 14, -O3) this was the fastest with g++, by 7 to 15 %. Inputs and constants have no steps.
 Schedule schedule(const BoundedPredicate& predicate);
 
 }  // namespace tightrope::codegen
