@@ -215,7 +215,9 @@ Polynomial derivative(Lowering& low, const Polynomial& p) {
 }
 
 Weights weights(Lowering& low, const Coefficient& r, const Coefficient& whole) {
-  return {.zero = complement(low, r, whole), .one = r, .whole = whole};
+  Coefficient pair[] = {complement(low, r, whole), r};
+  share_factor(low, pair);  // otherwise their factors would be multiplied to every product with a coefficient
+  return {.zero = pair[0], .one = pair[1], .whole = whole};
 }
 
 Polynomial value_at_end(const Polynomial& p, int end) {
