@@ -100,7 +100,7 @@ TEST(Classification, AnAxisSeparatesOnlyWhatStaysOnOneSideOfIt) {
     for (int i = 0; i < 1000; ++i) {
       Query query = test::miss(kind, random);
       EXPECT_TRUE(separated(kind, query.data(), reader));
-      for (const std::size_t axis : {0U, 1U}) {  // where it touches: at one point of the boundary, at one time
+      for (const std::size_t axis : {0U, 1U, 2U}) {  // where it touches: at one point of the boundary, at one time
         const std::size_t end = 12 * static_cast<std::size_t>(random.whole(0, 1));
         query[end + axis] = query[end + 9 + axis];
       }
