@@ -16,10 +16,9 @@ using dsl::Node;
 using dsl::NodeId;
 using dsl::Op;
 
-/// Operations that all cases of one test may evaluate exactly (about a microsecond each), and the cases that makes.
-constexpr int operation_budget = 400'000;
+/// Inputs that each test tries.
 constexpr int fewest_cases = 100;
-constexpr int most_cases = 3000;
+constexpr int most_cases = 2500;
 
 std::string call(const Node& node, const std::vector<int>& line) {
   const auto at = [&](NodeId id) { return line[static_cast<std::size_t>(id)]; };
@@ -81,7 +80,7 @@ std::vector<int> slot_permutation(const dsl::Predicate& predicate, const std::ve
 
 class ReferencePrinter {
  public:
-  explicit ReferencePrinter(const dsl::Predicate& predicate) : predicate_(predicate) {}
+  ReferencePrinter(const dsl::Predicate& predicate, int budget) : predicate_(predicate), budget_(budget) {}
 
   std::string print(bool same_values) {
     print_operations();
@@ -111,6 +110,7 @@ class ReferencePrinter {
   void print_table(bool same_values);
 
   const dsl::Predicate& predicate_;
+  int budget_;
   int operations_ = 0;
   std::string out_;
 };
@@ -202,7 +202,7 @@ void ReferencePrinter::print_properties() {
 }
 
 void ReferencePrinter::print_table(bool same_values) {
-  const int cases = std::clamp(operation_budget / std::max(1, operations_), fewest_cases, most_cases);
+  const int cases = std::clamp(budget_ / std::max(1, operations_), fewest_cases, most_cases);
   std::vector<std::string> items = {fmt::format("\"{}\"", name())};
   for (const std::string_view part : {"operations", "parameters", "outputs", "results", "properties"}) {
     items.push_back(fmt::format("{}_{}", name(), part));
@@ -232,8 +232,8 @@ std::string property_text(const dsl::Predicate& predicate, const dsl::Property& 
   return {};
 }
 
-std::string print_reference(const dsl::Predicate& predicate, bool same_values) {
-  return ReferencePrinter(predicate).print(same_values);
+std::string print_reference(const dsl::Predicate& predicate, bool same_values, int budget) {
+  return ReferencePrinter(predicate, budget).print(same_values);
 }
 
 }  // namespace tightrope::codegen

@@ -13,15 +13,21 @@
 namespace tightrope::codegen {
 namespace {
 
+/// Operations that the tests of one file may evaluate exactly (each takes 0.2 to 1 microsecond), and how many tests
+/// share them for each predicate and scalar type.
+constexpr int operation_budget = 8'000'000;
+constexpr int tests_of_one_predicate = 15;
+
 /// Of the signs on generic inputs, these fractions must be definite. Far below what sound bounds reach, above 0.
 constexpr double definite_tight = 0.5;
 constexpr double definite_safe = 0.25;
 
 class TestPrinter {
  public:
-  TestPrinter(const dsl::Predicate& predicate, const TestOptions& options)
+  TestPrinter(const dsl::Predicate& predicate, const TestOptions& options, int budget)
       : predicate_(predicate),
         options_(options),
+        budget_(budget),
         arguments_(arguments(predicate)),
         several_stages_(predicate.stages.size() > 1),
         has_range_(std::any_of(predicate.parameters.begin(), predicate.parameters.end(),
@@ -30,7 +36,7 @@ class TestPrinter {
                                 [](BoundMode mode) { return mode != BoundMode::none; })) {}
 
   std::string print() {
-    out_ = print_reference(predicate_, options_.same_products);
+    out_ = print_reference(predicate_, options_.same_products, budget_);
     print_adapter("");
     if (has_range_) {
       print_adapter("_in_range");
@@ -57,6 +63,7 @@ class TestPrinter {
 
   const dsl::Predicate& predicate_;
   const TestOptions& options_;
+  int budget_;
   std::vector<Argument> arguments_;
   bool several_stages_;
   bool has_range_;
@@ -205,7 +212,9 @@ std::string print_tests(const dsl::Program& reference, const TestOptions& option
       "\nnamespace tightrope::testing {\n"
       "namespace {\n\n"
       "void expect(const std::string& failure) { EXPECT_TRUE(failure.empty()) << failure; }\n";
-  for (const dsl::Predicate& predicate : reference.predicates) text += TestPrinter(predicate, options).print();
+  const std::size_t shares = reference.predicates.size() * options.precisions.size() * tests_of_one_predicate;
+  const int budget = operation_budget / static_cast<int>(std::max<std::size_t>(1, shares));
+  for (const dsl::Predicate& predicate : reference.predicates) text += TestPrinter(predicate, options, budget).print();
   return text + "\n}  // namespace\n}  // namespace tightrope::testing\n";
 }
 

@@ -326,8 +326,8 @@ Pair SafeBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
 
 // ------------------------------------------------------------------ B and the bound as nodes
 
-/// max |member|, of a bounded group max(|value| + bound). A NaN may get lost here: whatever is computed from the NaN
-/// input is NaN itself and has no sign, and the bound of everything else does not need it.
+/// max |member|, of a bounded group max(|value| + bound). A NaN member may get lost here (never the members before it):
+/// whatever is computed from the NaN input is NaN itself and has no sign, and no other bound needs it.
 NodeId SafeBounds::group_maximum(int group) {
   Group& g = groups_[static_cast<std::size_t>(group)];
   if (g.maximum != no_node) return g.maximum;
@@ -343,7 +343,9 @@ NodeId SafeBounds::relative_bound(int group) {
   Group& g = groups_[static_cast<std::size_t>(group)];
   if (g.relative_bound != no_node) return g.relative_bound;
   NodeId bound = no_node;
-  for (const NodeId b : g.bounds) bound = bound == no_node ? b : graph_.binary(Op::max_magnitude, bound, b);
+  // A NaN among the bounds must not get lost, its value may be a number. Inputs within their ranges have none.
+  const Op larger = use_ranges_ ? Op::max_magnitude : Op::max;
+  for (const NodeId b : g.bounds) bound = bound == no_node ? b : graph_.binary(larger, bound, b);
   // B = 0 gives a NaN, hence no sign. The quotient's own underflow is in output_bound's constant.
   g.relative_bound = graph_.binary(Op::div, bound, group_maximum(group));
   return g.relative_bound;

@@ -48,7 +48,7 @@ std::vector<Number> evaluate(const Graph& graph, std::span<const Number> slots) 
       case Op::abs: v.push_back(abs(at(n.a))); break;
       case Op::min: v.push_back(less_or(at(n.a), at(n.b), true)); break;
       case Op::max: v.push_back(less_or(at(n.a), at(n.b), false)); break;
-      case Op::max_magnitude: v.push_back(at(n.a) > at(n.b) ? at(n.a) : at(n.b)); break;
+      case Op::max_magnitude: v.push_back(at(n.b) > at(n.a) ? at(n.b) : at(n.a)); break;
       case Op::fma: v.push_back(fma(at(n.a), at(n.b), at(n.c))); break;
     }
   }

@@ -80,10 +80,11 @@ TIGHTROPE_FUNCTION constexpr Real maximum(Real a, Real b) {
   return a > b ? a : b >= a ? b : a + b;
 }
 
-/// max(a, b) of non-negative numbers in one instruction; a NaN may be lost. For the run-time maxima of SafeBound only.
+/// max(a, b) of non-negative numbers in one instruction, for the run-time maxima of SafeBound only. A NaN in `b` is
+/// passed over, a NaN in `a`, the maximum so far, stays: never may a NaN wipe out the numbers before it.
 template <class Real>
 TIGHTROPE_FUNCTION constexpr Real max_magnitude(Real a, Real b) {
-  return a > b ? a : b;
+  return b > a ? b : a;
 }
 
 }  // namespace tightrope

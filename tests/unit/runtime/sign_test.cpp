@@ -76,5 +76,12 @@ TYPED_TEST(SignOf, MaximumOfMagnitudesIsTheLargerNumber) {
   EXPECT_EQ(max_magnitude(Real(2), std::numeric_limits<Real>::infinity()), std::numeric_limits<Real>::infinity());
 }
 
+TYPED_TEST(SignOf, ANaNDoesNotWipeOutTheMaximumOfMagnitudesBeforeIt) {
+  using Real = TypeParam;
+  const Real nan = std::numeric_limits<Real>::quiet_NaN();
+  EXPECT_EQ(max_magnitude(max_magnitude(Real(8), nan), Real(1)), Real(8));
+  EXPECT_TRUE(std::isnan(max_magnitude(nan, Real(1))));
+}
+
 }  // namespace
 }  // namespace tightrope
