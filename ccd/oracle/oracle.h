@@ -9,8 +9,8 @@
 
 namespace tightrope::ccd::oracle {
 
-/// The exact time of first contact in [0, 1] between neighbouring doubles, by exact sign tests; lower == upper where the
-/// time is that double.
+/// The exact time of first contact in [0, 1] between neighbouring doubles, by exact sign tests; lower == upper where
+/// the time is that double.
 struct Contact {
   double lower;  ///< the largest double not above the time
   double upper;  ///< the smallest double not below it
