@@ -37,7 +37,7 @@ class ProgramElaborator {
     request.is_instance = true;
     if (!resolve(instance, request)) return std::nullopt;
     if (request.doc.empty()) request.doc = request.declaration->doc;
-    const Reporter::Context context(reporter_, fmt::format("in the instance `{}`", instance.name), instance.name_span);
+    const Reporter::Context context(reporter_, "in the instance ", instance.name, "", instance.name_span);
     Predicate result = elaborate_predicate(request, declarations_, bodies_, options_, reporter_);
     result.file = instance.name_span.file;
     return result;

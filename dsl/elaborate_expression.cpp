@@ -260,7 +260,7 @@ Value ExpressionElaborator::apply_call(const Expr& expr, std::span<const Value> 
   if (!level.allowed(expr.span)) return {};
   Scope scope;
   if (!bind_arguments(function, expr, arguments, scope)) return {};
-  const Reporter::Context context(reporter_, fmt::format("`{}` is called", expr.text), expr.span);
+  const Reporter::Context context(reporter_, "", expr.text, " is called", expr.span);
   run_lets(*function.module, function.declaration->body, scope);
   return evaluate(*function.module, function.declaration->result, scope);
 }

@@ -74,6 +74,7 @@ class PredicateElaborator {
   std::unordered_set<std::string> output_names_;
   std::unordered_map<std::string_view, SourceSpan> stage_spans_;
   bool has_stages_ = false;
+  bool outputs_lost_ = false;  ///< to errors; so that a stage without outputs may be no further mistake
 };
 
 void PredicateElaborator::add_parameter(const ParameterDecl& declaration) {
@@ -211,12 +212,13 @@ void PredicateElaborator::run_statement(const Statement& s, int stage, const std
 }
 
 void PredicateElaborator::run_loop(const Statement& s, int stage, const std::string& suffix) {
-  if (s.first.empty() || s.last.empty()) return;
+  if (s.first.empty() || s.last.empty()) return;  // a syntax error
   ExpressionElaborator::Level level(elaborator_);
   if (!level.allowed(s.span)) return;
   const Value first = elaborator_.evaluate(module_, s.first, scope_);
   const Value last = elaborator_.evaluate(module_, s.last, scope_);
   const auto range = elaborator_.loop_bounds(first, span_of(s.first), last, span_of(s.last));
+  outputs_lost_ |= !range;
   for (std::int64_t i = range ? range->first : 0; range && i < range->second && elaborator_.charge(1, s.span); ++i) {
     const std::size_t mark = scope_.mark();
     scope_.bind(s.name, scalar(number(i)));
@@ -246,7 +248,7 @@ void PredicateElaborator::run_stage(const Statement& s) {
   result_.stages.push_back({s.name, {}});
   const auto stage = static_cast<int>(result_.stages.size()) - 1;
   run_block(s.body, stage, "");  // what it binds stays visible in later stages
-  if (result_.stages.back().outputs.empty() && !declarations_.incomplete && !elaborator_.aborted()) {
+  if (result_.stages.back().outputs.empty() && !outputs_lost_ && !declarations_.incomplete && !elaborator_.aborted()) {
     reporter_.error(s.name_span, fmt::format("the stage `{}` has no outputs", s.name),
                     "outputs are given with `sign` and `value`");
   }
@@ -279,7 +281,11 @@ void PredicateElaborator::add_output(const Statement& s, int stage, const std::s
     }
     elaborator_.checked(value, span_of(s.expr));
   }
-  if (name_output(s, target.name, suffix, output)) target.outputs.push_back(std::move(output));
+  if (name_output(s, target.name, suffix, output)) {
+    target.outputs.push_back(std::move(output));
+  } else {
+    outputs_lost_ = true;
+  }
 }
 
 /// False, with a diagnostic, if there is no good name for the output.
@@ -318,7 +324,7 @@ void PredicateElaborator::check_stages() {
                                                  clash->first, s.name));
     }
   }
-  if (result_.stages.empty()) {
+  if (result_.stages.empty() && !outputs_lost_) {
     reporter_.error(request_.declaration->name_span, fmt::format("the predicate `{}` has no outputs", result_.name),
                     "outputs are given with `sign` and `value`");
   }

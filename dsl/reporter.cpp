@@ -21,8 +21,10 @@ std::string Reporter::place(SourceSpan span) const {
 void Reporter::error(SourceSpan span, std::string message, std::string hint) {
   if (errors_left_ == 0 || !reported_.insert(span).second) return;
   --errors_left_;
-  if (hint.empty() && !context_.empty())
-    hint = fmt::format("{} at {}", context_.back().what, place(context_.back().span));
+  if (hint.empty() && !context_.empty()) {
+    const Entry& c = context_.back();
+    hint = fmt::format("{}`{}`{} at {}", c.before, c.name, c.after, place(c.span));
+  }
   diagnostics_.error(span, std::move(message), std::move(hint));
 }
 

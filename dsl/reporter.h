@@ -25,11 +25,13 @@ class Reporter {
   /// "shapes.pred:3:7"
   std::string place(SourceSpan span) const;
 
-  /// While it lives, errors are reached through `what` ("in a call") at `span`.
+  /// While it lives, errors are reached through `before` + `name` + `after` ("`area` is called") at `span`. The texts
+  /// must live as long.
   class Context {
    public:
-    Context(Reporter& reporter, std::string what, SourceSpan span) : reporter_(reporter) {
-      reporter.context_.push_back({std::move(what), span});
+    Context(Reporter& reporter, std::string_view before, std::string_view name, std::string_view after, SourceSpan span)
+        : reporter_(reporter) {
+      reporter.context_.push_back({before, name, after, span});
     }
     ~Context() { reporter_.context_.pop_back(); }
     Context(const Context&) = delete;
@@ -41,7 +43,7 @@ class Reporter {
 
  private:
   struct Entry {
-    std::string what;
+    std::string_view before, name, after;
     SourceSpan span;
   };
   struct SpanHash {
