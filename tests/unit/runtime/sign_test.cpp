@@ -39,6 +39,20 @@ TYPED_TEST(SignOf, IsUncertainForNaNAndInfiniteBounds) {
   }
 }
 
+TYPED_TEST(SignOf, IsUncertainForWhatWasMadeUncertain) {
+  using Real = TypeParam;
+  Bounded<Real> single = {1, 0}, table[2][3] = {{{1, 0}, {2, 0}, {3, 0}}, {{-1, 0}, {-2, 0}, {-3, 0}}};
+  make_uncertain(single);
+  make_uncertain(table);
+  EXPECT_EQ(sign(single), Sign::uncertain);
+  for (const auto& row : table) {
+    for (const Bounded<Real>& x : row) {
+      EXPECT_EQ(sign(x), Sign::uncertain);
+      EXPECT_TRUE(std::isnan(x.value) && std::isinf(x.bound));
+    }
+  }
+}
+
 TEST(Sign, NegationSwapsDefiniteSigns) {
   EXPECT_EQ(-Sign::positive, Sign::negative);
   EXPECT_EQ(-Sign::negative, Sign::positive);
