@@ -64,6 +64,25 @@ TEST_P(Conservative, NoFalseNegative) {
   std::printf("\n");
 }
 
+/// What the test above is worth: the same algorithm with its error bounds dropped is caught in these scenes.
+TEST(ConservativeTest, WouldCatchAMethodWithoutErrorBounds) {
+  constexpr std::size_t count = 3000;
+  for (const Scene scene : {Scene::grazing, Scene::degenerate, Scene::tangent, Scene::near_coplanar, Scene::needles,
+                            Scene::tiny, Scene::huge, Scene::far, Scene::single}) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      std::vector<double> points(24 * count);
+      std::vector<unsigned char> truths(count);
+      std::vector<unsigned char> answers(count);
+      generate(scene, kind, count, 1)->fill(points);
+      exact_truths(kind, points, truths);
+      collides(kind, points.data(), count, answers.data(), Method::bsc_float);
+      std::size_t missed = 0;
+      for (std::size_t i = 0; i < count; ++i) missed += answers[i] < truths[i] ? 1 : 0;
+      EXPECT_GT(missed, 5U) << name(scene) << " " << name(kind);
+    }
+  }
+}
+
 std::vector<Scene> every_scene() {
   std::vector<Scene> all;
   for (const SceneInfo& info : scenes()) all.push_back(info.scene);
