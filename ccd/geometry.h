@@ -76,7 +76,7 @@ NormalizedQuery normalize(const double* points);
 /// Adds what `normalize` may have lost to the bounds of polynomials in differences of its coordinates: where the bound
 /// is above 2^-1000 its relative growth of 2^-20 covers it, where it is below the absolute one.
 inline void widen(std::span<Bounded<double>> numbers) {
-  for (Bounded<double>& x : numbers) x.bound = x.bound * 0x1.00001p0 + 0x1p-1000;
+  for (Bounded<double>& x : numbers) x.bound = tightrope::product(x.bound, 0x1.00001p0) + 0x1p-1000;
 }
 
 }  // namespace tightrope::ccd

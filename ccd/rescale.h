@@ -41,7 +41,7 @@ inline bool rescale(std::span<Bounded<double>> tuple) {
   const double factor = scale_to_one(largest);
   for (Bounded<double>& x : tuple) {
     x.value *= factor;
-    x.bound = x.bound * factor + std::numeric_limits<double>::min();
+    x.bound = tightrope::product(x.bound, factor) + std::numeric_limits<double>::min();
   }
   return true;
 }
