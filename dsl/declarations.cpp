@@ -43,6 +43,11 @@ class NameChecker {
 
   std::vector<Call> check_function(const FunctionDecl& function) {
     Block block;
+    for (const ParameterDecl& p : function.parameters) {
+      if (!p.bounded) continue;
+      reporter_.error(p.span, fmt::format("the parameter `{}` of a function cannot be `bounded`", p.name),
+                      "bounds come in through the parameters of predicates; a function takes any value");
+    }
     bind_parameters(function.parameters, block);
     check_statements(function.body, block);
     check_expression(function.result);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -22,13 +21,14 @@ struct FileText {
 };
 
 FileText read_file(const std::filesystem::path& path) {
+  const auto problem = [](int number) { return FileText{{}, std::generic_category().message(number)}; };
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return {{}, "it is a directory"};
+  if (std::filesystem::is_directory(path, error)) return problem(EISDIR);
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) return {{}, errno != 0 ? std::strerror(errno) : "it cannot be opened"};
+  if (!stream) return problem(errno != 0 ? errno : ENOENT);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) return {{}, "reading failed"};
+  if (stream.bad()) return problem(errno != 0 ? errno : EIO);
   return {std::move(text), {}};
 }
 

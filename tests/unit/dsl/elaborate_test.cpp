@@ -378,6 +378,9 @@ TEST(Elaborate, ChecksTheTypesOfFunctionParameters) {
 }
 
 TEST(Elaborate, ReportsWrongDeclarations) {
+  EXPECT_EQ(compile("function f(bounded scalar a) = a").errors(),
+            "1:27: the parameter `a` of a function cannot be `bounded` (bounds come in through the parameters of "
+            "predicates; a function takes any value)\n");
   EXPECT_EQ(compile("function dot(a, b) = a").errors(),
             "1:10: `dot` is a function of the language (choose another name)\n");
   EXPECT_EQ(compile("function g(a) = a function g(b) = b").errors(),
