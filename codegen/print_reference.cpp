@@ -98,7 +98,7 @@ class ReferencePrinter {
   /// `head` {a, b, c};
   void print_list(const std::string& head, std::vector<std::string> items) {
     for (std::size_t i = 0; i < items.size(); ++i) items[i] += i + 1 < items.size() ? "," : "};";
-    if (items.empty()) items.push_back("};");
+    if (items.empty()) return line(head + "{};");
     line(head + "{");
     line(wrap("    ", items));
   }
