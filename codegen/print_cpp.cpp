@@ -166,6 +166,7 @@ std::string PredicatePrinter::signature(std::size_t stage, bool with_suffix, con
     words.push_back(fmt::format("{}State& {}", last ? "const " : "", state_used ? "state" : "/*state*/"));
   }
   for (std::size_t i = 0; i < words.size(); ++i) words[i] += i + 1 < words.size() ? "," : ") noexcept {";
+  if (words.empty()) words.push_back(") noexcept {");
   return wrap_call(
       fmt::format("  TIGHTROPE_FUNCTION static {}_result {}{}(", name, name, with_suffix ? "_in_range" : ""), words);
 }
