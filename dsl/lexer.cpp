@@ -299,14 +299,33 @@ class Lexer {
 
   void lex_string() {
     const std::size_t begin = at_++;
-    while (!at_line_end() && text_[at_] != '"' && !given_up_) step_over_text();
+    const int errors_before = errors_;
+    while (!at_line_end() && text_[at_] != '"' && !given_up_) {
+      const CodePoint code_point = decode_utf8(text_, at_);
+      if (code_point.valid && code_point.value != 0 && needs_escape(code_point.value)) {
+        report_unexpected(code_point);
+      } else {
+        step_over_text();
+      }
+    }
     if (given_up_) return;
     if (at_line_end()) {
       error(begin, at_, "this string is not closed on its line");
       return push(TokenKind::malformed, begin);
     }
     ++at_;
-    push(TokenKind::string, begin);
+    push(errors_ == errors_before ? TokenKind::string : TokenKind::malformed, begin);
+  }
+
+  /// One error for a run of one character that has no meaning here.
+  void report_unexpected(CodePoint c) {
+    const std::size_t begin = at_;
+    const std::string_view character = text_.substr(at_, c.length);
+    while (at_ < text_.size() && looking_at(character)) at_ += c.length;
+    error(begin, at_,
+          fmt::format("unexpected character {}",
+                      needs_escape(c.value) ? fmt::format("U+{:04X}", c.value) : quote(character)),
+          c.value >= 0x80 ? "characters outside ASCII may stand in comments only" : "");
   }
 
   void lex_symbol() {
@@ -328,12 +347,7 @@ class Lexer {
     } else if (!code_point.valid) {
       report_malformed_utf8();
     } else {
-      while (at_ < text_.size() && looking_at(text_.substr(begin, code_point.length))) at_ += code_point.length;
-      error(begin, at_,
-            fmt::format("unexpected character {}", needs_escape(code_point.value)
-                                                       ? fmt::format("U+{:04X}", code_point.value)
-                                                       : quote(text_.substr(begin, code_point.length))),
-            code_point.value >= 0x80 ? "characters outside ASCII may stand in comments only" : "");
+      report_unexpected(code_point);
     }
     push(TokenKind::malformed, begin);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "dsl/parse_expression.h"
@@ -32,7 +33,11 @@ class BlockParser {
       if (cursor_.accept(TokenKind::semicolon)) continue;
       const Token first = cursor_.peek();
       if (returned) cursor_.expected_here("`}` after the function's `return`");
-      if (!parse_one(statement_kind()) || !at_statement_end()) {
+      const std::size_t before = body_.size();
+      const bool parsed = parse_one(statement_kind());
+      const bool complete = parsed && at_statement_end();
+      if (parsed && !complete && body_.size() > before) drop_expression();
+      if (!complete) {
         if (cursor_.peek().begin == first.begin) cursor_.take();
         cursor_.skip_to_statement();
       }
@@ -84,6 +89,13 @@ class BlockParser {
     const bool operand = cursor_.at_name() || kind == TokenKind::number || kind == TokenKind::left_parenthesis;
     cursor_.expected("the end of the statement", operand ? "a product is written `a * b`" : "");
     return false;
+  }
+
+  /// The last statement's expression has a tail that could not be read, so it is not what the user meant.
+  void drop_expression() {
+    Statement& last = body_.back();
+    if (last.kind == StatementKind::let) last.expr = {};
+    if (last.kind == StatementKind::sign || last.kind == StatementKind::value) body_.pop_back();
   }
 
   /// A statement whose place is the last keyword taken.
@@ -174,15 +186,22 @@ class BlockParser {
     if (name != nullptr && cursor_.kind() != TokenKind::left_brace) {
       cursor_.expected("`{`", "a stage is written `stage name { ... }`");
     }
-    if (!cursor_.skip_to_block()) return false;
     BlockContext inner = context_;
     inner.in_stage = true;
-    parse_block(cursor_, exprs_, inner, stage.body);
+    if (cursor_.skip_to_block()) {
+      parse_block(cursor_, exprs_, inner, stage.body);
+    } else if (name != nullptr && cursor_.at_statement()) {  // the `{` is missing, the `}` probably not
+      parse_statements(cursor_, exprs_, inner, stage.body);
+      cursor_.accept(TokenKind::right_brace);
+    } else {
+      return false;
+    }
     stage.span = cursor_.since(begin);
     if (allowed) {
       body_.push_back(std::move(stage));
     } else {  // its names exist all the same
-      std::move(stage.body.begin(), stage.body.end(), std::back_inserter(body_));
+      std::copy_if(stage.body.begin(), stage.body.end(), std::back_inserter(body_),
+                   [](const Statement& s) { return s.kind == StatementKind::let; });
     }
     return true;
   }

@@ -90,7 +90,8 @@ TEST(Lexer, ReportsMalformedTextOnceAndGoesOn) {
       {"a\0\0b"s, "id:a bad:\0\0 id:b $"s, 1, 3},
       {"// \xE2\x82\nx", "id:x $", 3, 5},
       {"/* \0 */ x"s, "id:x $", 3, 4},
-      {"\"\xC0\"", "\"\xC0\" $", 1, 2},
+      {"\"\xC0\"", "bad:\"\xC0\" $", 1, 2},
+      {"\"a\x1B[2J\" b", "bad:\"a\x1B[2J\" id:b $", 2, 3},
   };
   for (const auto& row : table) {
     const Lexed lexed = lex_text(row.text);
