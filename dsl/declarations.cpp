@@ -55,6 +55,9 @@ class NameChecker {
   }
 
   void check_predicate(const PredicateDecl& predicate) {
+    // Numbers known at compile time: no parameter is visible in them.
+    for (const RangeDecl& r : predicate.ranges) check_expression(r.limit);
+    for (const PropertyDecl& p : predicate.properties) check_expression(p.number);
     Block block;
     bind_parameters(predicate.parameters, block);
     check_statements(predicate.body, block);
