@@ -10,14 +10,13 @@ namespace {
 using Vector = std::vector<Coefficient>;
 
 Polynomial zero(int dimension, int degree) {
-  return {.dimension = dimension,
-          .degree = degree,
-          .coefficients = Vector(static_cast<std::size_t>((degree + 1) * dimension), number(0))};
+  Polynomial result{.dimension = dimension, .degree = degree, .coefficients = {}};
+  result.coefficients.assign(result.place(degree + 1, 0), number(0));
+  return result;
 }
 
 std::span<const Coefficient> coefficient(const Polynomial& p, int i) {
-  return std::span(p.coefficients)
-      .subspan(static_cast<std::size_t>(i * p.dimension), static_cast<std::size_t>(p.dimension));
+  return std::span(p.coefficients).subspan(p.place(i, 0), static_cast<std::size_t>(p.dimension));
 }
 
 /// x y' - y x' or one component of the cross product.

@@ -7,6 +7,7 @@
 /// 1 again: `cross` of linear vectors gives c0, X/2, c2 and the cubic of MATH 1.2 the nodes w0.c0, w0.X + w1.c0, ...
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "dsl/coefficient.h"
@@ -18,10 +19,12 @@ struct Polynomial {
   int degree = 0;
   std::vector<Coefficient> coefficients;  ///< (degree + 1) x dimension: coefficient, then component
 
-  Coefficient& at(int i, int component) { return coefficients[static_cast<std::size_t>(i * dimension + component)]; }
-  const Coefficient& at(int i, int component) const {
-    return coefficients[static_cast<std::size_t>(i * dimension + component)];
+  /// The place of coefficient i's component in `coefficients`.
+  std::size_t place(int i, int component) const {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(dimension) + static_cast<std::size_t>(component);
   }
+  Coefficient& at(int i, int component) { return coefficients[place(i, component)]; }
+  const Coefficient& at(int i, int component) const { return coefficients[place(i, component)]; }
 };
 
 enum class Bilinear {

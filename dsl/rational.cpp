@@ -34,7 +34,7 @@ UInt128 gcd_of_odd(UInt128 a, UInt128 b) {
     a -= b;
     a >>= trailing_zeros(a);
   }
-  return a;
+  return a | 1;  // it is odd; this says so to static analysis, which fears a division by 0
 }
 
 /// a << shift, or false if it does not fit 126 bits.
