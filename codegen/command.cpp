@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "codegen/compile.h"
+#include "codegen/print_tests.h"
 #include "codegen/report.h"
 
 namespace tightrope::codegen {
@@ -114,6 +115,19 @@ std::string interpret(const Arguments& arguments, CompileRequest& request) {
   return error;
 }
 
+/// The first file that is there already and is not ours: a CMakeLists.txt of the user's own.
+std::string foreign_file(const std::vector<TextFile>& files) {
+  for (const TextFile& file : files) {
+    if (file.path.filename() != "CMakeLists.txt") continue;
+    std::ifstream stream(file.path, std::ios::binary);
+    std::string start(project_mark.size(), '\0');
+    if (stream && !(stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == project_mark)) {
+      return file.path.string();
+    }
+  }
+  return {};
+}
+
 int run_check(const Arguments& arguments) {
   int status = done;
   for (const std::string& file : arguments.files) {
@@ -138,6 +152,9 @@ int run_compile(const Arguments& arguments) {
   dsl::Diagnostics diagnostics;
   const auto files = compile(request, sources, diagnostics);
   if (!files) return program_error(diagnostics, sources);
+  if (const std::string foreign = foreign_file(*files); !foreign.empty()) {
+    return usage_error(fmt::format("{} is there and was not generated; choose another folder with -o", foreign));
+  }
   if (const std::string error = write_files(*files); !error.empty()) return usage_error(error);
   return done;
 }

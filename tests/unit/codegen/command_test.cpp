@@ -157,6 +157,19 @@ TEST(Command, BadUsageIsOneClearLineAndStatus2) {
   EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"file", "orient2d.pred"}));
 }
 
+TEST(Command, TestsDoNotReplaceAProjectOfTheUsersOwn) {
+  const ScratchFolder folder;
+  folder.write("orient2d.pred", orient2d);
+  folder.write("CMakeLists.txt", "project(mine)\n");
+  const Outcome refused = tightrope(folder, "compile orient2d.pred --tests");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(has(refused.errors, "CMakeLists.txt is there and was not generated")) << refused.errors;
+  EXPECT_EQ(read_text(folder.path() / "CMakeLists.txt"), "project(mine)\n");
+  EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"CMakeLists.txt", "orient2d.pred"}));
+  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --tests -o out").status, 0);
+  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --tests -o out").status, 0) << "ours may be written again";
+}
+
 TEST(Command, HelpAndVersionEverywhere) {
   const ScratchFolder folder;
   for (const char* arguments : {"--help", "check --help", "compile --help", "report --help"}) {
