@@ -23,7 +23,7 @@ inline double scale_to_one(double x) {
 }
 
 /// Scales the tuple by one power of two such that no value or bound exceeds 1, the largest being at least 1/2 if it can
-/// be. False if a number is not finite (the tuple is unchanged then and carries no sign).
+/// be. False if a number is not finite or as large as 2^1022 (the tuple is unchanged then and carries no sign).
 ///
 /// The bound grows by the smallest normal number, which covers what scaling down loses to underflow: where the scaled
 /// bound is larger than 2^52 times that, the loss (less than 2^-1074) is covered by the inflation that a bounded input
@@ -36,7 +36,7 @@ inline bool rescale(std::span<Bounded<double>> tuple) {
     finite &= x.value - x.value == 0 && x.bound - x.bound == 0;
     largest = std::max(largest, magnitude);
   }
-  if (!finite) return false;
+  if (!finite || largest >= 0x1p1022) return false;
   if (largest == 0) return true;
   const double factor = scale_to_one(largest);
   for (Bounded<double>& x : tuple) {

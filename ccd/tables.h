@@ -2,7 +2,7 @@
 /// The decision tables of Bernstein sign classification: pure functions of three-valued signs.
 ///
 /// After "TightCCD: Efficient and Robust Continuous Collision Detection using Tight Error Bounds" (Wang, Tang, Tong,
-/// Tong 2015), repaired and closed as in MATH 2. `uncertain` means that a sign is not known, never that a number is
+/// Manocha 2015), repaired and closed as in MATH 2. `uncertain` means that a sign is not known, never that a number is
 /// zero; a definite result is a proof for every exact situation that the arguments leave open.
 
 #include <span>

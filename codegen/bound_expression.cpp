@@ -49,6 +49,21 @@ NodeId BoundExpressions::maximum(NodeId x, NodeId y) {
   return x == y ? x : noted(graph_.binary(Op::max, x, y), std::max(roundings(x), roundings(y)));
 }
 
+NodeId BoundExpressions::larger(NodeId x, NodeId y) {
+  return noted(graph_.binary(Op::max_magnitude, x, y), std::max(roundings(x), roundings(y)));
+}
+
+NodeId BoundExpressions::quotient(NodeId x, NodeId y) {
+  return noted(graph_.binary(Op::div, x, y), roundings(x) + roundings(y) + 1);
+}
+
+NodeId BoundExpressions::power(NodeId x, int exponent) {
+  if (exponent == 1) return x;
+  const NodeId half = power(x, exponent / 2);
+  const NodeId square = times(half, half);
+  return exponent % 2 == 0 ? square : times(square, x);
+}
+
 std::vector<const dsl::Output*> outputs_of_nodes(const dsl::Predicate& predicate) {
   std::vector<const dsl::Output*> result(static_cast<std::size_t>(predicate.graph.size()), nullptr);
   for (const auto& stage : predicate.stages) {

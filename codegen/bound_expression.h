@@ -21,6 +21,9 @@ class BoundExpressions {
   dsl::NodeId times(dsl::NodeId x, dsl::NodeId y);
   dsl::NodeId times_constant(dsl::NodeId x, double c);  ///< c > 0; exact if it is a power of two
   dsl::NodeId maximum(dsl::NodeId x, dsl::NodeId y);    ///< NaN if either is
+  dsl::NodeId larger(dsl::NodeId x, dsl::NodeId y);     ///< maximum that may pass over a NaN in y (Op::max_magnitude)
+  dsl::NodeId quotient(dsl::NodeId x, dsl::NodeId y);
+  dsl::NodeId power(dsl::NodeId x, int exponent);  ///< exponent >= 1
   dsl::NodeId zero_if_finite(dsl::NodeId id) {
     return graph_.sub(id, id);
   }  ///< x - x: 0, or NaN for an infinity or a NaN

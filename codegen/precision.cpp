@@ -15,13 +15,15 @@ const FloatFormat& format(Precision precision) { return precision == Precision::
 
 double round_up(double value, Precision precision) {
   if (precision == Precision::binary64) return value;
+  if (!(value <= binary32.largest)) return infinity;
   const float narrowed = static_cast<float>(value);
   if (static_cast<double>(narrowed) >= value) return static_cast<double>(narrowed);
   return static_cast<double>(std::nextafter(narrowed, std::numeric_limits<float>::infinity()));
 }
 
 bool representable(double value, Precision precision) {
-  return precision == Precision::binary64 || static_cast<double>(static_cast<float>(value)) == value;
+  if (precision == Precision::binary64) return true;
+  return std::abs(value) <= binary32.largest && static_cast<double>(static_cast<float>(value)) == value;
 }
 
 // The residual of a product is exact in an fma unless it underflows, and the one of a sum by TwoSum; where a result is
@@ -44,7 +46,7 @@ double add_up(double x, double y) {
 double div_up(double x, double y) {
   const double q = x / y;
   if (x == 0) return 0;
-  if (q > 0x1p-900 && std::fma(q, y, -x) >= 0) return q;
+  if (q > 0x1p-900 && x > 0x1p-900 && std::fma(q, y, -x) >= 0) return q;
   return std::nextafter(q, infinity);
 }
 

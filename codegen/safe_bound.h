@@ -21,9 +21,11 @@
 /// *Underflow* (A). With m = max(1, all maxima), B <= S m^d and A <= C eta m^p: a product adds (Sf Cg + Sg Cf + 1) to
 /// C. Where all inputs have a declared range, A is a compile-time constant, as in lemma C of tight_bound.h.
 ///
+/// The evaluation of B has its own underflow, which goes into A as well.
+///
 /// *Groups*: computed differences per coordinate axis; exact vectors used directly per axis; every scalar parameter and
-/// every bounded parameter on its own. The roundings of the maxima, of B and of the product are paid by a factor 1 +
-/// 2^-20 (2^-10 in single precision), which is enough for 2^31 (2^12) of them.
+/// every bounded parameter on its own. The roundings of the maxima (1 + 2u for a difference), of B and of the product
+/// are counted and paid by a factor 1 + 2^-20 (2^-10 in single precision); too many of them are a diagnostic.
 
 #include "codegen/bounds.h"
 

@@ -7,8 +7,9 @@
 #include "ccd/oracle/oracle.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <vector>
 
 #include "ccd/oracle/decision.h"
@@ -135,7 +136,10 @@ std::vector<Root> Touching::candidates_of_coplanar_motion() const {
 
 /// Times of contact: `first`: those among which is the first one; otherwise one of them, if there is any.
 std::vector<Root> contact_times(Kind kind, std::span<const double, 24> points, Defect defect, bool first) {
-  assert(std::all_of(points.begin(), points.end(), [](double x) { return std::isfinite(x); }));
+  if (!std::all_of(points.begin(), points.end(), [](double x) { return std::isfinite(x); })) {
+    std::fputs("oracle: a coordinate is not finite; callers reject such queries\n", stderr);
+    std::abort();
+  }
   if (swept_boxes_apart(kind, points)) return {};
   const IntegerPoints integers = integer_points(kind, points);
   Touching touching(kind, integers, defect);

@@ -7,6 +7,7 @@
 #include <tightrope/exact.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -20,13 +21,14 @@ using dsl::NodeId;
 using dsl::Op;
 
 enum class Inputs { exact, bounded, mixed };
-enum class Ranges { none, all };
+enum class Ranges { none, all, uneven };  ///< all: 4 for every input; uneven: 2^-100 .. 2^100, each its own
 
 struct Shape {
   Inputs inputs = Inputs::mixed;
   Ranges ranges = Ranges::none;
   int operations = 16;
   bool polynomial_only = false;  ///< no max, min, abs
+  bool uneven_scales = false;    ///< inputs of one sample differ by hundreds of binades, constants by dozens
 };
 
 /// A predicate over six scalars with a random graph; the last few nodes are outputs.
@@ -35,18 +37,23 @@ dsl::Predicate random_predicate(std::mt19937_64& random, const Shape& shape) {
   dsl::Predicate p;
   p.name = "random";
   std::vector<NodeId> values;
+  // Names that groups of inputs have too: they must not be taken for those.
+  const char* const names[] = {"d", "b", "v_x", "d_x", "x", "y"};
   for (int i = 0; i < 6; ++i) {
     dsl::Parameter parameter;
-    parameter.name = std::string("x") + std::to_string(i);
+    parameter.name = names[i];
     parameter.bounded = shape.inputs == Inputs::bounded || (shape.inputs == Inputs::mixed && i % 2 == 1);
     if (shape.ranges == Ranges::all) parameter.range = 4;
+    if (shape.ranges == Ranges::uneven) parameter.range = std::ldexp(1.0, pick(201) - 100);
     parameter.first_slot = i;
     p.parameters.push_back(parameter);
     p.slots.push_back({i, 0, 0, 0});
     values.push_back(p.graph.input(i));
   }
   const auto operand = [&] { return values[static_cast<std::size_t>(pick(static_cast<int>(values.size())))]; };
-  const double constants[] = {3, 0.75, -5, 7, 0.1875, 2, -1};
+  const double even[] = {3, 0.75, -5, 7, 0.1875, 2, -1};
+  const double uneven[] = {3, 0x1.8p40, -5, 0x1.4p-30, 0x1p35, 100, -1};
+  const auto& constants = shape.uneven_scales ? uneven : even;
   for (int i = 0; i < shape.operations; ++i) {
     const NodeId a = operand();
     const NodeId b = operand();
@@ -69,7 +76,7 @@ dsl::Predicate random_predicate(std::mt19937_64& random, const Shape& shape) {
         made = p.graph.mul(a, p.graph.constant(constants[pick(7)]));
         break;
       case 8:
-        made = p.graph.mul_pow2(a, pick(7) - 3);
+        made = p.graph.mul_pow2(a, (pick(7) - 3) * (shape.uneven_scales ? 12 : 1));
         break;
       case 9:
         made = p.graph.binary(Op::div, a, p.graph.constant(std::abs(constants[pick(4)])));
@@ -106,13 +113,16 @@ struct Sample {
 
 /// Values near `scale`: random, small multiples of a grid, or close to an earlier value; bounds from 0 to comparable.
 template <class Real>
-Sample<Real> random_sample(std::mt19937_64& random, const dsl::Predicate& p, double scale) {
+Sample<Real> random_sample(std::mt19937_64& random, const dsl::Predicate& p, double common_scale,
+                           bool uneven_scales = false) {
   const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; };
   Sample<Real> s;
   const std::size_t n = p.slots.size();
   s.slots.resize(2 * n, Real(0));
   for (std::size_t i = 0; i < n; ++i) {
     Real value;
+    const double own_scale = uneven_scales ? std::ldexp(1.0, static_cast<int>(random() % 120) - 60) : 1;
+    const double scale = std::min(common_scale * own_scale, static_cast<double>(std::numeric_limits<Real>::max() / 16));
     switch (random() % 4) {
       case 0:
         value = static_cast<Real>(scale * static_cast<double>(static_cast<int>(random() % 9) - 4));
@@ -128,14 +138,15 @@ Sample<Real> random_sample(std::mt19937_64& random, const dsl::Predicate& p, dou
       default:
         value = static_cast<Real>(scale * 4 * uniform());
     }
-    if (p.parameters[i].range) value = std::min(std::max(value, Real(-4)), Real(4));
+    const Real range = static_cast<Real>(p.parameters[i].range.value_or(0));
+    if (p.parameters[i].range) value = std::min(std::max(value, -range), range);
     s.slots[i] = value;
     Real exact = value;
     if (p.parameters[i].bounded) {
       const int how = static_cast<int>(random() % 4);
       const int shift = how == 0 ? 0 : how == 1 ? -50 : how == 2 ? -20 : -1;
       Real bound = how == 0 ? Real(0) : static_cast<Real>(std::abs(std::ldexp(scale * uniform(), shift)));
-      if (p.parameters[i].range) bound = std::min(bound, Real(4));
+      if (p.parameters[i].range) bound = std::min(bound, range);
       s.slots[n + i] = bound;
       // The worst errors are the extreme ones: the exact input is value +- bound as often as not.
       const DyadicRatio spread = DyadicRatio(static_cast<double>(bound)) *
@@ -198,7 +209,7 @@ Tally campaign(BoundMode mode, const Shape& shape, int predicates, int samples, 
     EXPECT_FALSE(diagnostics.has_errors());
     for (int j = 0; j < samples; ++j) {
       const double scale = random_scale<Real>(random, shape.ranges == Ranges::all);
-      check_sample<Real>(p, bounded, random_sample<Real>(random, p, scale), tally);
+      check_sample<Real>(p, bounded, random_sample<Real>(random, p, scale, shape.uneven_scales), tally);
     }
   }
   return tally;
@@ -207,11 +218,16 @@ Tally campaign(BoundMode mode, const Shape& shape, int predicates, int samples, 
 template <class Real>
 void expect_sound(BoundMode mode) {
   for (const Inputs inputs : {Inputs::exact, Inputs::bounded, Inputs::mixed}) {
-    for (const Ranges ranges : {Ranges::none, Ranges::all}) {
-      const Tally tally = campaign<Real>(mode, {inputs, ranges, 14, false}, 250, 40);
-      EXPECT_EQ(tally.violations, 0) << static_cast<int>(inputs) << static_cast<int>(ranges);
-      EXPECT_EQ(tally.wrong_signs, 0) << static_cast<int>(inputs) << static_cast<int>(ranges);
-      EXPECT_GT(tally.definite, tally.checked / 20) << static_cast<int>(inputs) << static_cast<int>(ranges);
+    for (const Ranges ranges : {Ranges::none, Ranges::all, Ranges::uneven}) {
+      for (const bool uneven_scales : {false, true}) {
+        if (ranges == Ranges::uneven && !uneven_scales) continue;
+        SCOPED_TRACE(testing::Message() << "inputs " << static_cast<int>(inputs) << " ranges "
+                                        << static_cast<int>(ranges) << " uneven " << uneven_scales);
+        const Tally tally = campaign<Real>(mode, {inputs, ranges, 14, false, uneven_scales}, 250, 40);
+        EXPECT_EQ(tally.violations, 0);
+        EXPECT_EQ(tally.wrong_signs, 0);
+        EXPECT_GT(tally.definite, tally.checked / 20);
+      }
     }
   }
 }
@@ -258,6 +274,55 @@ TEST(SafeBound, DroppedInputBoundAndUnderflowAreNoticed) {
                              Weakening::drop_rounding_of_differences)
                 .violations,
             0);
+}
+
+/// A predicate with one output over scalar parameters that have the given ranges (0: none).
+dsl::Predicate scalar_predicate(const std::vector<double>& ranges, const std::function<NodeId(dsl::Graph&)>& build) {
+  dsl::Predicate p;
+  p.name = "scalars";
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    dsl::Parameter parameter;
+    parameter.name = std::string(1, static_cast<char>('a' + i));
+    if (ranges[i] > 0) parameter.range = ranges[i];
+    parameter.first_slot = static_cast<int>(i);
+    p.parameters.push_back(parameter);
+    p.slots.push_back({static_cast<int>(i), 0, 0, 0});
+    p.graph.input(static_cast<std::int32_t>(i));
+  }
+  dsl::Output output;
+  output.name = "out";
+  output.nodes = {build(p.graph)};
+  p.stages.push_back({"evaluate", {output}});
+  return p;
+}
+
+/// (x y) x - (z w) z with x, z near 2^-540 and y, w near 2^190: no product of the value underflows, but x x, which the
+/// bound computes, does.
+TEST(SafeBound, UnderflowOfItsOwnEvaluationIsPartOfIt) {
+  std::mt19937_64 random(3);
+  for (const bool ranges : {true, false}) {
+    const double small = ranges ? 1 : 0;
+    const double large = ranges ? 0x1p200 : 0;
+    const dsl::Predicate p = scalar_predicate({small, large, small, large}, [](dsl::Graph& g) {
+      const NodeId left = g.mul(g.mul(g.input(0), g.input(1)), g.input(0));
+      const NodeId right = g.mul(g.mul(g.input(2), g.input(3)), g.input(2));
+      return g.sub(left, right);
+    });
+    dsl::Diagnostics diagnostics;
+    const BoundedPredicate bounded = add_bounds(p, BoundMode::safe, Precision::binary64, diagnostics);
+    Tally tally;
+    for (int i = 0; i < 20000; ++i) {
+      const auto near = [&](double x) { return x * (1 + std::ldexp(static_cast<double>(random() % 64), -52)); };
+      const double x = std::ldexp(1 + static_cast<double>(random() >> 12) * 0x1p-52, -540);
+      const double y = std::ldexp(1 + static_cast<double>(random() >> 12) * 0x1p-52, 190);
+      Sample<double> s;
+      s.slots = {x, y, near(x), near(y), 0, 0, 0, 0};
+      for (int j = 0; j < 4; ++j) s.exact.emplace_back(s.slots[static_cast<std::size_t>(j)]);
+      check_sample<double>(p, bounded, s, tally);
+    }
+    EXPECT_EQ(tally.violations, 0) << ranges;
+    EXPECT_EQ(tally.wrong_signs, 0) << ranges;
+  }
 }
 
 /// The sign of an infinity or a NaN is uncertain, whatever the operation.

@@ -1,0 +1,66 @@
+#pragma once
+/// The groups of inputs that share one run-time maximum in SafeBound (safe_bound.h), and their maxima as nodes.
+
+#include <string>
+#include <vector>
+
+#include "codegen/bound_expression.h"
+
+namespace tightrope::codegen {
+
+/// One value of a group: an exact input, a rounded sum or difference of two, or a bounded input with its bound.
+struct GroupMember {
+  dsl::NodeId value = dsl::no_node;
+  dsl::NodeId bound = dsl::no_node;  ///< bounded inputs only
+};
+
+struct InputGroup {
+  enum class Kind { differences, vectors, scalar, bounded, all } kind = Kind::all;
+  int index = 0;     ///< differences, vectors: the axis (-1: not along one axis); scalar, bounded: the parameter
+  std::string name;  ///< for people: "d_x"
+  std::vector<GroupMember> members;
+  double range = 0;  ///< no exact member exceeds it, by the declared ranges; else infinity
+  dsl::NodeId maximum = dsl::no_node;
+  dsl::NodeId relative_bound = dsl::no_node;
+  bool bounded() const { return kind == Kind::bounded; }
+};
+
+/// Sorts what a predicate's polynomials are made of into groups. `one_group`: all exact leaves share one maximum.
+class InputGroups {
+ public:
+  InputGroups(const dsl::Predicate& predicate, bool one_group, dsl::Graph& graph);
+
+  int size() const { return static_cast<int>(groups_.size()); }
+  const InputGroup& operator[](int group) const { return groups_[static_cast<std::size_t>(group)]; }
+  /// The group of a node if it is a leaf, else -1. Leaves: sums and differences of two exact inputs, and inputs that
+  /// are used in any other way.
+  int of(dsl::NodeId id) const { return leaf_groups_[static_cast<std::size_t>(id)]; }
+  std::vector<std::string> names() const;
+  std::vector<double> ranges() const;
+
+  /// max |member|, of a bounded group max(|value| + bound).
+  dsl::NodeId maximum(int group, BoundExpressions& r);
+  /// rho = max(bound) / maximum; NaN if that is 0.
+  dsl::NodeId relative_bound(int group, BoundExpressions& r);
+  /// max(1, all maxima).
+  dsl::NodeId overall_maximum(BoundExpressions& r);
+
+ private:
+  int enter(InputGroup::Kind kind, int index, std::string name, GroupMember member, double range);
+  int enter_input(const dsl::Node& n, dsl::NodeId id);
+  int enter_difference(const dsl::Node& n, dsl::NodeId id);
+  const dsl::Slot& slot_of(const dsl::Node& n) const { return predicate_.slots[static_cast<std::size_t>(n.index)]; }
+  const dsl::Parameter& parameter_of(const dsl::Node& n) const {
+    return predicate_.parameters[static_cast<std::size_t>(slot_of(n).parameter)];
+  }
+  double range_of(const dsl::Node& n) const;
+
+  const dsl::Predicate& predicate_;
+  bool one_group_;
+  dsl::Graph& graph_;
+  std::vector<InputGroup> groups_;
+  std::vector<int> leaf_groups_;
+  dsl::NodeId overall_maximum_ = dsl::no_node;
+};
+
+}  // namespace tightrope::codegen
