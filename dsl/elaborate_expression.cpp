@@ -13,7 +13,7 @@ namespace {
 
 constexpr int max_depth = 400;                      // of calls, loops and comprehensions in one another
 constexpr std::int64_t max_iterations = 1'000'000;  // of one loop
-constexpr std::size_t max_work = 3'000'000;         // expressions evaluated and coefficients made, in one predicate
+constexpr std::size_t max_work = 1'500'000;         // expressions evaluated and coefficients made, in one predicate
 
 }  // namespace
 
