@@ -11,6 +11,10 @@ OpenedWriter create_queries(const std::filesystem::path& output, const std::stri
     if (!std::filesystem::is_directory(output, ignored)) return create_hdf5(output);
     return FileError{fmt::format("{}: is a directory", output.string())};
   }
+  if (extension == ".csv") {
+    return FileError{fmt::format("{}: CSV goes into a directory, a file for each kind; give a directory or FILE.h5",
+                                 output.string())};
+  }
   if (std::filesystem::exists(output, ignored) && !std::filesystem::is_directory(output, ignored)) {
     return FileError{fmt::format("{}: is a file; the output is a directory or FILE.h5", output.string())};
   }

@@ -218,6 +218,8 @@ TEST(QueryFiles, OutputsThatCannotBeAreErrors) {
   for (const auto& [output, what] :
        {std::pair<std::string, std::string>{file, "is a file; the output is a directory or FILE.h5"},
         {(scratch.path() / "dir.h5").string(), "is a directory"},
+        {(scratch.path() / "q.csv").string(),
+         "CSV goes into a directory, a file for each kind; give a directory or FILE.h5"},
         {(scratch.path() / "missing" / "q.h5").string(), "No such file or directory"}}) {
     const auto created = create_queries(output, "scene");
     ASSERT_TRUE(std::holds_alternative<FileError>(created)) << output;
