@@ -15,7 +15,7 @@ namespace {
 
 /// Operations that the tests of one file may evaluate exactly (each takes 0.2 to 1 microsecond), and how many tests
 /// share them for each predicate and scalar type.
-constexpr int operation_budget = 8'000'000;
+constexpr int operation_budget = 6'000'000;
 constexpr int tests_of_one_predicate = 15;
 
 /// Of the signs on generic inputs, these fractions must be definite. Far below what sound bounds reach, above 0.

@@ -66,11 +66,13 @@ inline std::string output_name(const Reference& reference, int element) {
       element -= output.elements();
       continue;
     }
-    std::string subscripts;
-    for (std::size_t i = output.extents.size(); i-- > 0; element /= output.extents[i]) {
-      subscripts = '[' + std::to_string(element % output.extents[i]) + ']' + subscripts;
+    std::string text = output.name;
+    int rest = output.elements();
+    for (const int extent : output.extents) {
+      rest /= extent;
+      text += '[' + std::to_string(element / rest % extent) + ']';
     }
-    return output.name + subscripts;
+    return text;
   }
   return "?";
 }

@@ -97,7 +97,7 @@ class Inputs {
         value = step(value, random_.between(-4, 4));
         break;
       case 1:
-        value += value * std::ldexp(random_.template uniform<Real>(), -random_.between(1, digits));
+        value += product(value, std::ldexp(random_.template uniform<Real>(), -random_.between(1, digits)));
         break;
       case 2:
         value = random_.template uniform<Real>();
@@ -241,7 +241,7 @@ class Inputs {
     for (int iteration = 0; iteration < 8; ++iteration) {
       slots[slot] = t1;
       const Real f1 = evaluate_plain<Real>(reference_, slots)[output];
-      const Real t2 = t1 - f1 * ((t1 - t0) / (f1 - f0));
+      const Real t2 = t1 - product(f1, (t1 - t0) / (f1 - f0));
       if (f1 == 0 || !std::isfinite(t2) || t2 == t1) break;
       t0 = t1, f0 = f1, t1 = t2;
     }
@@ -261,9 +261,10 @@ class Inputs {
       const auto slots = [&](int p) { return reference_.parameters[static_cast<std::size_t>(p)].slots(); };
       for (int k = 0; k < slots(to); ++k) {
         const auto at = [&](int p) -> Real& {
-          return x_[static_cast<std::size_t>(first_slot_[static_cast<std::size_t>(p)] + k % slots(p))].value;
+          const int slot = first_slot_[static_cast<std::size_t>(p)] + k % slots(p);
+          return x_[static_cast<std::size_t>(slot)].value;
         };
-        at(to) = on_line ? at(from) + s * (at(other) - at(from)) : at(from);
+        at(to) = on_line ? at(from) + product(s, at(other) - at(from)) : at(from);
       }
     }
     if (random_.one_in(2)) {
