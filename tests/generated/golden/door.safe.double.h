@@ -143,7 +143,7 @@ struct door<bound::safe, double> {
     state.v46 = v46;
     const double v47 = product(v46, v46);
     state.v47 = v47;
-    const double v48 = product(0x0.0000000000012p-1022, v47);
+    const double v48 = product(0x0.0000000000015p-1022, v47);
     const double v49 = v37 + v48;
     const double v50 = product(u_t0[1], v_t0[2]);
     const double v51 = product(u_t0[2], v_t0[1]);
@@ -272,7 +272,7 @@ struct door<bound::safe, double> {
     const double v47 = state.v47;
     const double v46 = state.v46;
     const double v133 = product(v46, v47);
-    const double v134 = product(0x0.0000000000026p-1022, v133);
+    const double v134 = product(0x0.0000000000083p-1022, v133);
     const double v135 = v132 + v134;
     const double v63 = state.v63;
     const double v52 = state.v52;
@@ -318,7 +318,7 @@ struct door<bound::safe, double> {
     const double v168 = v128 + 0x1.4000000000001p-50;
     const double v169 = product(v130, v168);
     const double v170 = product(v167, v169);
-    const double v171 = product(v133, 0x0.0000000000023p-1022);
+    const double v171 = product(v133, 0x0.0000000000081p-1022);
     const double v172 = v170 + v171;
     const double v173 = v172 + v160;
     result.Z[1] = {v159, v173};
@@ -359,7 +359,7 @@ struct door<bound::safe, double> {
     const double v202 = v200 + v201;
     const double v203 = product(v35, 0x1.0000100000005p-47);
     const double v204 = v202 + v203;
-    const double v205 = product(v47, 0x0.000000000002ap-1022);
+    const double v205 = product(v47, 0x0.000000000002dp-1022);
     const double v206 = v204 + v205;
     const double v207 = product(v63, 0x1p+1);
     const double v208 = v97 - v207;
