@@ -163,6 +163,18 @@ TEST(Command, GenerateThatFailsLeavesNoFile) {
   EXPECT_EQ(scratch.names(), std::vector<std::string>{});
 }
 
+TEST(Command, InterruptedGenerateLeavesNoFile) {
+  const ScratchDirectory scratch;
+  const std::string file = (scratch.path() / "q.h5").string();
+  const int raw =
+      std::system(("timeout -s INT 1 '" TIGHTROPE_CCD_COMMAND "' generate grazing --queries 100000000 -o '" + file +
+                   "' >/dev/null 2>&1")
+                      .c_str());
+  ASSERT_TRUE(WIFEXITED(raw));
+  EXPECT_EQ(WEXITSTATUS(raw), 124) << "it ended before the interrupt";
+  EXPECT_EQ(scratch.names(), std::vector<std::string>{});
+}
+
 TEST(Command, ClassifyAnswersInFileOrder) {
   const ScratchDirectory scratch;
   const std::string file = (scratch.path() / "q.h5").string();

@@ -333,5 +333,38 @@ TEST(QueryFiles, RowsLongerThanTheReadersChunksAreWhole) {
   EXPECT_EQ(contents.rounded, 0U);
 }
 
+/// Bytes changed, dropped and doubled: an error that names the file, or queries that are finite; never a crash.
+TEST(QueryFiles, DamagedTextIsAnErrorOrFiniteQueries) {
+  const ScratchDirectory scratch;
+  std::mt19937_64 random(3);
+  const std::string whole[] = {rational_query('1') + rational_query('0'),
+                               plain_row("-0x1.8p3", ",1") + plain_row("1e5", ",0")};
+  int errors = 0;
+  constexpr int rounds = 1000;
+  for (int round = 0; round < rounds; ++round) {
+    std::string text = whole[round % 2];
+    for (auto changes = 1 + random() % 4; changes > 0; --changes) {
+      const std::size_t at = random() % text.size();
+      switch (random() % 3) {
+        case 0:
+          text[at] = static_cast<char>(random() % 256);
+          break;
+        case 1:
+          text.erase(at, 1 + random() % 20);
+          break;
+        default:
+          text.insert(at, text.substr(random() % text.size(), 20));
+          break;
+      }
+    }
+    const std::string file = scratch.write("vertex-face.csv", text);
+    const Contents contents = read({file});
+    errors += contents.error.empty() ? 0 : 1;
+    EXPECT_TRUE(contents.error.empty() || contents.error.starts_with(file + ":")) << contents.error;
+    for (const double x : contents.kinds[0].points) EXPECT_TRUE(std::isfinite(x));
+  }
+  EXPECT_GT(errors, rounds / 2);
+}
+
 }  // namespace
 }  // namespace tightrope::ccd
