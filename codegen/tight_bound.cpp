@@ -44,7 +44,6 @@ class TightBounds {
   TightBounds(const dsl::Predicate& predicate, Precision precision, Weakening weakening, double slack, bool use_ranges,
               dsl::Diagnostics& diagnostics, Graph& graph)
       : predicate_(predicate),
-        precision_(precision),
         format_(format(precision)),
         weakening_(weakening),
         slack_(slack),
@@ -89,7 +88,6 @@ class TightBounds {
   bool weakened(Weakening w) const { return weakening_ == w; }
 
   const dsl::Predicate& predicate_;
-  Precision precision_;
   const FloatFormat& format_;
   Weakening weakening_;
   double slack_;
