@@ -20,10 +20,10 @@ using ExprId = std::int32_t;
 inline constexpr ExprId no_expr = -1;
 
 enum class ExprKind : std::uint8_t {
-  number,         ///< text = the literal
-  name,           ///< text = the identifier
-  negate,         ///< operands[0]
-  add,            ///< operands[0], operands[1]
+  number,  ///< text = the literal
+  name,    ///< text = the identifier
+  negate,  ///< operands[0]
+  add,     ///< operands[0], operands[1]
   subtract,
   multiply,
   divide,
@@ -44,7 +44,7 @@ struct Expr {
   std::string text;
   std::vector<ExprId> operands;
   ExprId body_begin = no_expr;  ///< comprehension only; the body's root is body_end - 1. The body's nodes stand inside
-  ExprId body_end = no_expr;    ///< the enclosing expression's range, before the comprehension node; a walker skips them.
+  ExprId body_end = no_expr;  ///< the enclosing expression's range, before the comprehension node; a walker skips them.
 };
 
 /// An expression: nodes [begin, end) of `Module::exprs`, the root last. Empty (begin == end) after a syntax error.
@@ -60,7 +60,8 @@ enum class StatementKind : std::uint8_t { let, sign, value, for_loop, stage };
 struct Statement {
   StatementKind kind = StatementKind::let;
   SourceSpan span;
-  std::string name;       ///< let: the name; for_loop: the variable; stage: its name; sign/value: the name after `as`, or empty
+  std::string
+      name;  ///< let: the name; for_loop: the variable; stage: its name; sign/value: the name after `as`, or empty
   SourceSpan name_span;
   ExprRange expr;         ///< let: the value; sign/value: what is output (one statement an expression of the list)
   ExprRange first, last;  ///< for_loop: `for name in first .. last`, last excluded

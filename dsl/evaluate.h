@@ -12,8 +12,8 @@ namespace tightrope::dsl {
 
 /// The values of all nodes of `graph`, in order, given one value per input slot.
 ///
-/// `Number` needs + - * / and unary minus, construction from double, and found by argument-dependent lookup (or built in
-/// for floating point) abs(x), sqrt(x), min(x, y), max(x, y), mul_pow2(x, int), fma(x, y, z).
+/// `Number` needs + - * / and unary minus, construction from double, and found by argument-dependent lookup (or built
+/// in for floating point) abs(x), sqrt(x), min(x, y), max(x, y), mul_pow2(x, int), fma(x, y, z).
 template <class Number>
 std::vector<Number> evaluate(const Graph& graph, std::span<const Number> slots) {
   using std::abs;
@@ -30,12 +30,24 @@ std::vector<Number> evaluate(const Graph& graph, std::span<const Number> slots) 
   for (NodeId id = 0; id < graph.size(); ++id) {
     const Node& n = graph[id];
     switch (n.op) {
-      case Op::input: v.push_back(slots[static_cast<std::size_t>(n.index)]); break;
-      case Op::constant: v.push_back(Number(n.value)); break;
-      case Op::add: v.push_back(at(n.a) + at(n.b)); break;
-      case Op::sub: v.push_back(at(n.a) - at(n.b)); break;
-      case Op::neg: v.push_back(-at(n.a)); break;
-      case Op::mul: v.push_back(at(n.a) * at(n.b)); break;
+      case Op::input:
+        v.push_back(slots[static_cast<std::size_t>(n.index)]);
+        break;
+      case Op::constant:
+        v.push_back(Number(n.value));
+        break;
+      case Op::add:
+        v.push_back(at(n.a) + at(n.b));
+        break;
+      case Op::sub:
+        v.push_back(at(n.a) - at(n.b));
+        break;
+      case Op::neg:
+        v.push_back(-at(n.a));
+        break;
+      case Op::mul:
+        v.push_back(at(n.a) * at(n.b));
+        break;
       case Op::mul_pow2:
         if constexpr (std::is_floating_point_v<Number>) {
           v.push_back(std::ldexp(at(n.a), n.index));
@@ -43,13 +55,27 @@ std::vector<Number> evaluate(const Graph& graph, std::span<const Number> slots) 
           v.push_back(mul_pow2(at(n.a), n.index));
         }
         break;
-      case Op::div: v.push_back(at(n.a) / at(n.b)); break;
-      case Op::sqrt: v.push_back(sqrt(at(n.a))); break;
-      case Op::abs: v.push_back(abs(at(n.a))); break;
-      case Op::min: v.push_back(less_or(at(n.a), at(n.b), true)); break;
-      case Op::max: v.push_back(less_or(at(n.a), at(n.b), false)); break;
-      case Op::max_magnitude: v.push_back(at(n.b) > at(n.a) ? at(n.b) : at(n.a)); break;
-      case Op::fma: v.push_back(fma(at(n.a), at(n.b), at(n.c))); break;
+      case Op::div:
+        v.push_back(at(n.a) / at(n.b));
+        break;
+      case Op::sqrt:
+        v.push_back(sqrt(at(n.a)));
+        break;
+      case Op::abs:
+        v.push_back(abs(at(n.a)));
+        break;
+      case Op::min:
+        v.push_back(less_or(at(n.a), at(n.b), true));
+        break;
+      case Op::max:
+        v.push_back(less_or(at(n.a), at(n.b), false));
+        break;
+      case Op::max_magnitude:
+        v.push_back(at(n.b) > at(n.a) ? at(n.b) : at(n.a));
+        break;
+      case Op::fma:
+        v.push_back(fma(at(n.a), at(n.b), at(n.c)));
+        break;
     }
   }
   return v;

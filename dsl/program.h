@@ -14,14 +14,14 @@ namespace tightrope::dsl {
 /// (t = 0, then t = 1, moving parameters only), then component.
 struct Parameter {
   std::string name;
-  bool bounded = false;               ///< comes with an error bound; its slots carry (value, bound)
-  bool moving = false;                ///< linear in t, given at t = 0 and t = 1
-  bool point = false;                 ///< a position: what a translation translates
-  int dimension = 1;                  ///< 1, 2 or 3
-  std::vector<int> array;             ///< extents; empty for a single one
-  std::optional<double> range;        ///< |coordinate| <= range, for all of its scalars (and for its bound)
+  bool bounded = false;         ///< comes with an error bound; its slots carry (value, bound)
+  bool moving = false;          ///< linear in t, given at t = 0 and t = 1
+  bool point = false;           ///< a position: what a translation translates
+  int dimension = 1;            ///< 1, 2 or 3
+  std::vector<int> array;       ///< extents; empty for a single one
+  std::optional<double> range;  ///< |coordinate| <= range, for all of its scalars (and for its bound)
   int first_slot = 0;
-  int elements() const;               ///< product of `array`
+  int elements() const;  ///< product of `array`
   int slots() const { return elements() * (moving ? 2 : 1) * dimension; }
 };
 
@@ -29,15 +29,15 @@ struct Parameter {
 struct Slot {
   int parameter = 0;
   int element = 0;
-  int time = 0;       ///< 0 or 1
+  int time = 0;  ///< 0 or 1
   int component = 0;
 };
 
 struct Output {
-  std::string name;           ///< unique in the predicate, a C++ identifier
-  bool sign = true;           ///< `sign E` (false: `value E`)
-  std::vector<int> extents;   ///< C++ array extents: the expression's array extents, then degree + 1 unless the degree
-                              ///< is 0, then 2 or 3 for a vector; empty for a scalar
+  std::string name;          ///< unique in the predicate, a C++ identifier
+  bool sign = true;          ///< `sign E` (false: `value E`)
+  std::vector<int> extents;  ///< C++ array extents: the expression's array extents, then degree + 1 unless the degree
+                             ///< is 0, then 2 or 3 for a vector; empty for a scalar
   int degree = 0;
   std::vector<NodeId> nodes;  ///< row-major over `extents`
   std::string text;           ///< the expression as written, white space folded
@@ -51,9 +51,9 @@ struct Stage {
 
 struct Property {
   enum class Kind { antisymmetric, symmetric, cyclic, translation_invariant, scale } kind;
-  std::vector<int> parameters;                ///< antisymmetric/symmetric: two; cyclic: three or more
-  int exponent = 0;                           ///< scale: f(s x) = s^exponent f(x)
-  std::vector<std::pair<int, int>> outputs;   ///< (stage, output) it holds for
+  std::vector<int> parameters;               ///< antisymmetric/symmetric: two; cyclic: three or more
+  int exponent = 0;                          ///< scale: f(s x) = s^exponent f(x)
+  std::vector<std::pair<int, int>> outputs;  ///< (stage, output) it holds for
 };
 
 struct Predicate {
@@ -87,6 +87,7 @@ struct ElaborateOptions {
 /// Loads `path` and all it imports into `sources`, parses, checks types and degrees, inlines functions, unrolls loops,
 /// lowers polynomials in t to their Bernstein coefficients. A file that cannot be read is an error with the place of
 /// the import (or of line 1 of the main file). The program is complete only if no error was added.
-Program load_program(const std::string& path, SourceMap& sources, Diagnostics& diagnostics, const ElaborateOptions& options = {});
+Program load_program(const std::string& path, SourceMap& sources, Diagnostics& diagnostics,
+                     const ElaborateOptions& options = {});
 
 }  // namespace tightrope::dsl

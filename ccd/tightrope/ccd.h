@@ -2,8 +2,8 @@
 /// Continuous collision detection between linearly moving primitives: vertex against face, edge against edge.
 ///
 /// A query asks: does the closed vertex touch the closed triangle (the closed segments each other) at some time t in
-/// [0, 1], each of the four points moving linearly from its position at t = 0 to that at t = 1? Degenerate triangles and
-/// segments included. `false` is a guarantee from every method but `bsc_float`; `true` may be a false positive.
+/// [0, 1], each of the four points moving linearly from its position at t = 0 to that at t = 1? Degenerate triangles
+/// and segments included. `false` is a guarantee from every method but `bsc_float`; `true` may be a false positive.
 
 #include <Eigen/Core>
 #include <array>
@@ -26,9 +26,9 @@ enum class Method {
 
 struct MethodInfo {
   Method method;
-  std::string_view name;    ///< "bsc-float", as the commands spell it
-  std::string_view bound;   ///< "none", "SafeBound", "TightBound"
-  bool conservative;        ///< never misses a collision
+  std::string_view name;   ///< "bsc-float", as the commands spell it
+  std::string_view bound;  ///< "none", "SafeBound", "TightBound"
+  bool conservative;       ///< never misses a collision
   std::string_view source;
 };
 
@@ -52,6 +52,7 @@ bool edge_edge(const Eigen::Vector3d& ea0_t0, const Eigen::Vector3d& ea1_t0, con
 bool collides(Kind kind, const double* points, Method method = Method::tight);
 
 /// `count` queries, `points` holding 24 * count doubles; `results` must hold `count` bytes and gets 0 or 1.
-void collides(Kind kind, const double* points, std::size_t count, unsigned char* results, Method method = Method::tight);
+void collides(Kind kind, const double* points, std::size_t count, unsigned char* results,
+              Method method = Method::tight);
 
 }  // namespace tightrope::ccd
