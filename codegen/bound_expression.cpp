@@ -28,7 +28,7 @@ NodeId BoundExpressions::noted(NodeId id, double roundings) {
   return id;
 }
 
-NodeId BoundExpressions::constant(double value) { return graph_.constant(round_up(value, precision_)); }
+NodeId BoundExpressions::constant(double value) { return graph_.constant(round_up(value, format_)); }
 
 NodeId BoundExpressions::plus(NodeId x, NodeId y) {
   if (x == no_node) return y;

@@ -11,7 +11,7 @@ namespace tightrope::codegen {
 /// real value of the expression over the values it is built on.
 class BoundExpressions {
  public:
-  BoundExpressions(dsl::Graph& graph, Precision precision) : graph_(graph), precision_(precision) {}
+  BoundExpressions(dsl::Graph& graph, const FloatFormat& format) : graph_(graph), format_(format) {}
 
   /// The value whose magnitude is |id|: negations and absolute values taken off, so that |x| of both is one node.
   dsl::NodeId base(dsl::NodeId id) const;
@@ -33,7 +33,7 @@ class BoundExpressions {
   dsl::NodeId noted(dsl::NodeId id, double roundings);
 
   dsl::Graph& graph_;
-  Precision precision_;
+  const FloatFormat& format_;
   std::unordered_map<dsl::NodeId, double> roundings_;
 };
 

@@ -1,5 +1,7 @@
 #include "codegen/bounds.h"
 
+#include <cassert>
+
 #include "codegen/precision.h"
 #include "codegen/safe_bound.h"
 #include "codegen/simplify.h"
@@ -15,6 +17,14 @@ const char* name(BoundMode mode) {
       return "safe";
     case BoundMode::tight:
       return "tight";
+    case BoundMode::fixed:
+      return "static";
+    case BoundMode::interval:
+      return "interval";
+    case BoundMode::exact:
+      return "exact";
+    case BoundMode::staged:
+      return "staged";
   }
   return "";
 }
@@ -37,10 +47,10 @@ void add_no_bounds(const dsl::Predicate& predicate, BoundedPredicate& result) {
 }
 
 /// A constant that the precision does not hold would silently be another number.
-bool constants_fit(const dsl::Predicate& predicate, Precision precision, dsl::Diagnostics& diagnostics) {
+bool constants_fit(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics) {
   for (dsl::NodeId id = 0; id < predicate.graph.size(); ++id) {
     const dsl::Node& n = predicate.graph[id];
-    if (n.op == dsl::Op::constant && !representable(n.value, precision)) {
+    if (n.op == dsl::Op::constant && !representable(n.value, format)) {
       diagnostics.error(predicate.stages.front().outputs.front().span,
                         "predicate `" + predicate.name + "` needs a constant that `float` does not hold exactly",
                         "write it as a quotient of smaller whole numbers, or compile for --real double");
@@ -52,23 +62,36 @@ bool constants_fit(const dsl::Predicate& predicate, Precision precision, dsl::Di
 
 }  // namespace
 
-BoundedPredicate add_bounds(const dsl::Predicate& original, BoundMode mode, Precision precision,
+BoundedPredicate add_bounds(const dsl::Predicate& original, BoundMode mode, const FloatFormat& format,
                             dsl::Diagnostics& diagnostics, Weakening weakening) {
   BoundedPredicate result;
   const dsl::Predicate predicate = simplify(original);
-  if (!constants_fit(predicate, precision, diagnostics)) return result;
+  if (!constants_fit(predicate, format, diagnostics)) return result;
   switch (mode) {
     case BoundMode::none:
       add_no_bounds(predicate, result);
       break;
     case BoundMode::safe:
-      add_safe_bounds(predicate, precision, diagnostics, weakening, result);
+      add_safe_bounds(predicate, format, diagnostics, weakening, result);
       break;
     case BoundMode::tight:
-      add_tight_bounds(predicate, precision, diagnostics, weakening, result);
+      add_tight_bounds(predicate, format, diagnostics, weakening, result);
+      break;
+    case BoundMode::fixed:
+    case BoundMode::interval:
+      assert(false && "not there yet");
+      break;
+    case BoundMode::exact:
+    case BoundMode::staged:
+      assert(false && "these modes have no bounds");
       break;
   }
   return result;
+}
+
+BoundedPredicate add_bounds(const dsl::Predicate& predicate, BoundMode mode, Precision precision,
+                            dsl::Diagnostics& diagnostics, Weakening weakening) {
+  return add_bounds(predicate, mode, format(precision), diagnostics, weakening);
 }
 
 }  // namespace tightrope::codegen

@@ -8,10 +8,21 @@
 
 namespace tightrope::codegen {
 
-enum class BoundMode { none, safe, tight };
+/// How a generated predicate knows its signs. The first five give every value a bound (`add_bounds`); `exact` and
+/// `staged` give four-valued signs of their own.
+enum class BoundMode {
+  none,      ///< no bounds
+  safe,      ///< SafeBound: safe_bound.h
+  tight,     ///< TightBound: tight_bound.h
+  fixed,     ///< "static": from declared ranges alone, at compile time
+  interval,  ///< interval arithmetic
+  exact,     ///< exact arithmetic
+  staged,    ///< `fixed` or `safe`, then `tight`, then `exact`, as far as needed
+};
+struct FloatFormat;  // codegen/precision.h
 enum class Precision { binary64, binary32 };
 
-const char* name(BoundMode mode);       ///< "float", "safe", "tight"
+const char* name(BoundMode mode);       ///< as the command line spells it: "float", "safe", "tight", "static" ...
 const char* name(Precision precision);  ///< "double", "float"
 
 /// Value and bound of one output element: |value - exact| <= bound, evaluated as floating point in the graph's order.
@@ -58,6 +69,11 @@ enum class Weakening {
 /// Adds bounds to a predicate; errors (an operation without a bound in this mode, a constant that the precision does
 /// not hold) go to `diagnostics` with the place of the output.
 BoundedPredicate add_bounds(const dsl::Predicate& predicate, BoundMode mode, Precision precision,
+                            dsl::Diagnostics& diagnostics, Weakening weakening = Weakening::none);
+
+/// The same for any floating-point format (the tests have one with few enough numbers to try them all). `format` must
+/// outlive the call only.
+BoundedPredicate add_bounds(const dsl::Predicate& predicate, BoundMode mode, const FloatFormat& format,
                             dsl::Diagnostics& diagnostics, Weakening weakening = Weakening::none);
 
 }  // namespace tightrope::codegen

@@ -41,6 +41,8 @@ void OperationCount::add(Op op) {
       break;
     case Op::min:
     case Op::max:
+    case Op::certain_nonzero:
+    case Op::certain_nonnegative:
     case Op::max_magnitude:
       ++comparisons;
       break;

@@ -15,9 +15,25 @@ constexpr std::size_t line_length = 120;
 /// Names that generated functions use themselves, so that no argument may have them: the runtime's, the struct's, and
 /// those of the function bodies (v0, v1, ... are recognised apart).
 std::set<std::string> reserved_names(const dsl::Predicate& predicate) {
-  std::set<std::string> names = {"product", "magnitude", "minimum", "maximum",   "max_magnitude", "make_uncertain",
-                                 "bound",   "Bounded",   "Sign",    "State",     "state",         "result",
-                                 "real",    "in_range",  "sign",    "tightrope", "generated"};
+  std::set<std::string> names = {"product",
+                                 "magnitude",
+                                 "minimum",
+                                 "maximum",
+                                 "max_magnitude",
+                                 "make_uncertain",
+                                 "certain_nonzero",
+                                 "certain_nonnegative",
+                                 "bound",
+                                 "Bounded",
+                                 "Sign",
+                                 "State",
+                                 "state",
+                                 "result",
+                                 "real",
+                                 "in_range",
+                                 "sign",
+                                 "tightrope",
+                                 "generated"};
   names.insert(predicate.name);
   for (const dsl::Stage& stage : predicate.stages) {
     names.insert(stage.name);
@@ -78,6 +94,14 @@ std::string_view tag(BoundMode mode) {
       return "bound::safe";
     case BoundMode::tight:
       return "bound::tight";
+    case BoundMode::fixed:
+      return "bound::fixed";
+    case BoundMode::interval:
+      return "bound::interval";
+    case BoundMode::exact:
+      return "bound::exact";
+    case BoundMode::staged:
+      return "bound::staged";
   }
   return {};
 }

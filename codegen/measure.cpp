@@ -105,6 +105,8 @@ std::vector<Real> published_bounds(const dsl::Graph& graph, std::span<const Real
       case Op::max_magnitude:
         result = std::max(at(r, node.a), at(r, node.b));
         break;
+      case Op::certain_nonzero:
+      case Op::certain_nonnegative:
       case Op::sqrt:
       case Op::fma:
         result = std::numeric_limits<Real>::quiet_NaN();

@@ -1,5 +1,6 @@
 #include "codegen/precision.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,23 +8,24 @@ namespace tightrope::codegen {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr FloatFormat binary64{0x1p-53, 0x1p-1074, 0x1p-20, 0x1p-920, 0x1.fffffffffffffp+1023};
-constexpr FloatFormat binary32{0x1p-24, 0x1p-149, 0x1p-10, 0x1p-110, 0x1.fffffep+127};
+constexpr FloatFormat binary64{53, -1022, 1023, 0x1p-53, 0x1p-1074, 0x1p-20, 0x1p-920, 0x1.fffffffffffffp+1023};
+constexpr FloatFormat binary32{24, -126, 127, 0x1p-24, 0x1p-149, 0x1p-10, 0x1p-110, 0x1.fffffep+127};
 }  // namespace
 
 const FloatFormat& format(Precision precision) { return precision == Precision::binary64 ? binary64 : binary32; }
 
-double round_up(double value, Precision precision) {
-  if (precision == Precision::binary64) return value;
-  if (!(value <= binary32.largest)) return infinity;
-  const float narrowed = static_cast<float>(value);
-  if (static_cast<double>(narrowed) >= value) return static_cast<double>(narrowed);
-  return static_cast<double>(std::nextafter(narrowed, std::numeric_limits<float>::infinity()));
+double round_up(double value, const FloatFormat& format) {
+  if (std::isnan(value) || value == 0) return value;
+  // The spacing of the format's numbers around `value` is a power of two, so that quotient and product are exact.
+  const int exponent = std::max(std::ilogb(value), format.min_exponent);
+  const int spacing = exponent - format.significand_bits + 1;
+  if (std::isinf(value) || spacing < -1074) return value;
+  const double rounded = std::ldexp(std::ceil(std::ldexp(value, -spacing)), spacing);
+  return rounded > format.largest ? infinity : rounded;
 }
 
-bool representable(double value, Precision precision) {
-  if (precision == Precision::binary64) return true;
-  return std::abs(value) <= binary32.largest && static_cast<double>(static_cast<float>(value)) == value;
+bool representable(double value, const FloatFormat& format) {
+  return std::abs(value) <= format.largest && round_up(value, format) == value;
 }
 
 // The residual of a product is exact in an fma unless it underflows, and the one of a sum by TwoSum; where a result is

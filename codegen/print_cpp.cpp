@@ -141,6 +141,9 @@ std::string PredicatePrinter::expression(NodeId id) const {
       return fmt::format("minimum({}, {})", a, b);
     case Op::max:
       return fmt::format("maximum({}, {})", a, b);
+    case Op::certain_nonzero:
+    case Op::certain_nonnegative:
+      return fmt::format("{}({}, {})", dsl::op_name(node.op), a, b);
     case Op::max_magnitude:
       return fmt::format("max_magnitude({}, {})", a, b);
     case Op::fma:

@@ -47,6 +47,8 @@ std::string call(const Node& node, const std::vector<int>& line) {
       return fmt::format("min({}, {})", at(node.a), at(node.b));
     case Op::max:
       return fmt::format("max({}, {})", at(node.a), at(node.b));
+    case Op::certain_nonzero:
+    case Op::certain_nonnegative:
     case Op::max_magnitude:
     case Op::fma:
       break;

@@ -35,16 +35,16 @@ constexpr std::size_t most_monomials = 96;
 
 class SafeBounds {
  public:
-  SafeBounds(const dsl::Predicate& predicate, Precision precision, Weakening weakening, bool one_group, bool use_ranges,
-             dsl::Diagnostics& diagnostics, Graph& graph)
+  SafeBounds(const dsl::Predicate& predicate, const FloatFormat& format, Weakening weakening, bool one_group,
+             bool use_ranges, dsl::Diagnostics& diagnostics, Graph& graph)
       : predicate_(predicate),
-        format_(format(precision)),
+        format_(format),
         weakening_(weakening),
         one_group_(one_group),
         use_ranges_(use_ranges),
         diagnostics_(diagnostics),
         graph_(graph),
-        r_(graph, precision),
+        r_(graph, format),
         groups_(predicate, one_group, graph),
         unit_(format_.unit_roundoff * (weakening == Weakening::halve_unit_roundoff ? 0.5 : 1)) {}
 
@@ -209,6 +209,8 @@ Pair SafeBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
       [[fallthrough]];
     case Op::sqrt:
     case Op::fma:
+    case Op::certain_nonzero:
+    case Op::certain_nonnegative:
     case Op::max_magnitude:
       break;
   }
@@ -354,7 +356,7 @@ void SafeBounds::run(BoundedPredicate& result) {
 
 }  // namespace
 
-void add_safe_bounds(const dsl::Predicate& predicate, Precision precision, dsl::Diagnostics& diagnostics,
+void add_safe_bounds(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics,
                      Weakening weakening, BoundedPredicate& result) {
   bool one_group = false;
   bool use_ranges = all_inputs_have_ranges(predicate);
@@ -362,7 +364,7 @@ void add_safe_bounds(const dsl::Predicate& predicate, Precision precision, dsl::
     BoundedPredicate attempt;
     attempt.graph = predicate.graph;
     dsl::Diagnostics found;
-    SafeBounds bounds(predicate, precision, weakening, one_group, use_ranges, found, attempt.graph);
+    SafeBounds bounds(predicate, format, weakening, one_group, use_ranges, found, attempt.graph);
     bounds.run(attempt);
     if (found.has_errors()) {
       for (const auto& d : found.entries()) diagnostics.error(d.span, d.message, d.hint);
@@ -370,9 +372,9 @@ void add_safe_bounds(const dsl::Predicate& predicate, Precision precision, dsl::
     }
     if (bounds.too_many_monomials()) {
       one_group = true;
-    } else if (use_ranges && bounds.largest_floor() > format(precision).floor_limit) {
+    } else if (use_ranges && bounds.largest_floor() > format.floor_limit) {
       use_ranges = false;
-    } else if (2 * bounds.roundings() * format(precision).unit_roundoff > format(precision).slack) {
+    } else if (2 * bounds.roundings() * format.unit_roundoff > format.slack) {
       diagnostics.error(predicate.stages.front().outputs.front().span,
                         "the error bound of this predicate takes too many roundings for the precision");
       return;

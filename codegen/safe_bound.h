@@ -32,7 +32,7 @@
 namespace tightrope::codegen {
 
 /// As add_tight_bounds.
-void add_safe_bounds(const dsl::Predicate& predicate, Precision precision, dsl::Diagnostics& diagnostics,
+void add_safe_bounds(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics,
                      Weakening weakening, BoundedPredicate& result);
 
 }  // namespace tightrope::codegen

@@ -208,6 +208,10 @@ dsl::Predicate rebuilt(const dsl::Predicate& predicate, bool rewriting) {
       case Op::max_magnitude:
         to = rewrite.extremum(n.op, at(n.a), at(n.b));
         break;
+      case Op::certain_nonzero:
+      case Op::certain_nonnegative:
+        to = result.graph.binary(n.op, at(n.a), at(n.b));
+        break;
       case Op::fma:
         to = result.graph.fma(at(n.a), at(n.b), at(n.c));
         break;

@@ -41,17 +41,17 @@ bool is_difference_of_inputs(const Graph& graph, const Node& n) {
 
 class TightBounds {
  public:
-  TightBounds(const dsl::Predicate& predicate, Precision precision, Weakening weakening, double slack, bool use_ranges,
-              dsl::Diagnostics& diagnostics, Graph& graph)
+  TightBounds(const dsl::Predicate& predicate, const FloatFormat& format, Weakening weakening, double slack,
+              bool use_ranges, dsl::Diagnostics& diagnostics, Graph& graph)
       : predicate_(predicate),
-        format_(format(precision)),
+        format_(format),
         weakening_(weakening),
         slack_(slack),
         unit_(format_.unit_roundoff * (weakening == Weakening::halve_unit_roundoff ? 0.5 : 1) * (1 + slack)),
         use_ranges_(use_ranges),
         diagnostics_(diagnostics),
         graph_(graph),
-        r_(graph, precision) {}
+        r_(graph, format) {}
 
   void run(BoundedPredicate& result);
   double roundings() const { return roundings_; }  ///< the largest D + m of all outputs
@@ -325,6 +325,8 @@ Error TightBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
       [[fallthrough]];
     case Op::sqrt:
     case Op::fma:
+    case Op::certain_nonzero:
+    case Op::certain_nonnegative:
     case Op::max_magnitude:
       break;
   }
@@ -359,6 +361,8 @@ double TightBounds::magnitude_limit(const Node& n) const {
       return limit(n.a) / std::abs(graph_[n.b].value) * inflation + 8 * format_.eta;
     case Op::min:
     case Op::max:
+    case Op::certain_nonzero:
+    case Op::certain_nonnegative:
     case Op::max_magnitude:
       return std::max(limit(n.a), limit(n.b));
     case Op::sqrt:
@@ -383,6 +387,8 @@ bool TightBounds::overflow_shows(const Node& n) const {
       return shows(n.a);
     case Op::min:
     case Op::max:
+    case Op::certain_nonzero:
+    case Op::certain_nonnegative:
     case Op::max_magnitude:
       return shows(n.a) && shows(n.b);
     case Op::add:
@@ -449,16 +455,16 @@ void TightBounds::run(BoundedPredicate& result) {
 
 }  // namespace
 
-void add_tight_bounds(const dsl::Predicate& predicate, Precision precision, dsl::Diagnostics& diagnostics,
+void add_tight_bounds(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics,
                       Weakening weakening, BoundedPredicate& result) {
-  const FloatFormat& f = format(precision);
+  const FloatFormat& f = format;
   double slack = f.slack;
   bool use_ranges = all_inputs_have_ranges(predicate);
   for (;;) {
     BoundedPredicate attempt;
     attempt.graph = predicate.graph;
     dsl::Diagnostics found;
-    TightBounds bounds(predicate, precision, weakening, slack, use_ranges, found, attempt.graph);
+    TightBounds bounds(predicate, format, weakening, slack, use_ranges, found, attempt.graph);
     bounds.run(attempt);
     const double needed = 2 * bounds.roundings() * f.unit_roundoff;
     if (found.has_errors()) {

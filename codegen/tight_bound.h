@@ -36,7 +36,7 @@ namespace tightrope::codegen {
 
 /// Appends the bounds of all outputs of `predicate` to `result.graph`, which starts as a copy of the predicate's graph,
 /// and enters the outputs into `result.stages`.
-void add_tight_bounds(const dsl::Predicate& predicate, Precision precision, dsl::Diagnostics& diagnostics,
+void add_tight_bounds(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics,
                       Weakening weakening, BoundedPredicate& result);
 
 }  // namespace tightrope::codegen

@@ -2,6 +2,7 @@
 /// Evaluates a graph on any number type: floating point (what generated code computes) or exact arithmetic.
 
 #include <cmath>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -13,7 +14,8 @@ namespace tightrope::dsl {
 /// The values of all nodes of `graph`, in order, given one value per input slot.
 ///
 /// `Number` needs + - * / and unary minus, construction from double, and found by argument-dependent lookup (or built
-/// in for floating point) abs(x), sqrt(x), min(x, y), max(x, y), mul_pow2(x, int), fma(x, y, z).
+/// in for floating point) abs(x), sqrt(x), min(x, y), max(x, y), mul_pow2(x, int), fma(x, y, z). On exact
+/// numbers the guards (Op::certain_nonzero ..) let everything pass.
 template <class Number>
 std::vector<Number> evaluate(const Graph& graph, std::span<const Number> slots) {
   using std::abs;
@@ -26,6 +28,14 @@ std::vector<Number> evaluate(const Graph& graph, std::span<const Number> slots) 
     if (x < y) return want_less ? x : y;
     if (y < x || x == y) return want_less ? y : x;
     return x + y;
+  };
+  const auto guarded = [](const Number& x, const Number& bound, bool strictly) -> Number {
+    if constexpr (std::is_floating_point_v<Number>) {
+      const bool holds = strictly ? std::abs(x) > bound : x >= bound;
+      return holds ? x : std::numeric_limits<Number>::quiet_NaN();
+    } else {
+      return x;
+    }
   };
   for (NodeId id = 0; id < graph.size(); ++id) {
     const Node& n = graph[id];
@@ -69,6 +79,12 @@ std::vector<Number> evaluate(const Graph& graph, std::span<const Number> slots) 
         break;
       case Op::max:
         v.push_back(less_or(at(n.a), at(n.b), false));
+        break;
+      case Op::certain_nonzero:
+        v.push_back(guarded(at(n.a), at(n.b), true));
+        break;
+      case Op::certain_nonnegative:
+        v.push_back(guarded(at(n.a), at(n.b), false));
         break;
       case Op::max_magnitude:
         v.push_back(at(n.b) > at(n.a) ? at(n.b) : at(n.a));

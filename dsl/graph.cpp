@@ -26,6 +26,8 @@ int operand_count(Op op) {
     case Op::div:
     case Op::min:
     case Op::max:
+    case Op::certain_nonzero:
+    case Op::certain_nonnegative:
     case Op::max_magnitude:
       return 2;
     case Op::fma:
@@ -64,6 +66,10 @@ const char* op_name(Op op) {
       return "fma";
     case Op::max_magnitude:
       return "max_magnitude";
+    case Op::certain_nonzero:
+      return "certain_nonzero";
+    case Op::certain_nonnegative:
+      return "certain_nonnegative";
   }
   return "";
 }

@@ -12,20 +12,22 @@ using NodeId = std::int32_t;
 inline constexpr NodeId no_node = -1;
 
 enum class Op : std::uint8_t {
-  input,          ///< input slot `index`
-  constant,       ///< `value`, exact
-  add,            ///< a + b
-  sub,            ///< a - b
-  neg,            ///< -a, exact
-  mul,            ///< a * b
-  mul_pow2,       ///< a * 2^index, exact but for underflow and overflow
-  div,            ///< a / b
-  sqrt,           ///< sqrt(a)
-  abs,            ///< |a|, exact
-  min,            ///< exact; NaN if an operand is NaN
-  max,            ///< exact; NaN if an operand is NaN
-  fma,            ///< a * b + c, rounded once
-  max_magnitude,  ///< max(a, b) of non-negative numbers, may ignore a NaN (bounds only; see codegen/safe_bound.h)
+  input,                ///< input slot `index`
+  constant,             ///< `value`, exact
+  add,                  ///< a + b
+  sub,                  ///< a - b
+  neg,                  ///< -a, exact
+  mul,                  ///< a * b
+  mul_pow2,             ///< a * 2^index, exact but for underflow and overflow
+  div,                  ///< a / b
+  sqrt,                 ///< sqrt(a)
+  abs,                  ///< |a|, exact
+  min,                  ///< exact; NaN if an operand is NaN
+  max,                  ///< exact; NaN if an operand is NaN
+  fma,                  ///< a * b + c, rounded once
+  certain_nonzero,      ///< a if |a| > b, else NaN: the divisor of a quotient, b its error bound (bounds only)
+  certain_nonnegative,  ///< a if a >= b, else NaN: the radicand of a root, b its error bound (bounds only)
+  max_magnitude,        ///< max(a, b) of non-negative numbers, may ignore a NaN (bounds only; see codegen/safe_bound.h)
 };
 
 struct Node {

@@ -80,6 +80,19 @@ TIGHTROPE_FUNCTION constexpr Real maximum(Real a, Real b) {
   return a > b ? a : b >= a ? b : a + b;
 }
 
+/// `a` if the exact number that it stands for, which differs from it by at most `bound`, is certainly not zero; else
+/// NaN, so that a quotient by it has no sign (and nothing is divided by zero). The bound may be NaN.
+template <class Real>
+TIGHTROPE_FUNCTION constexpr Real certain_nonzero(Real a, Real bound) {
+  return magnitude(a) > bound ? a : static_cast<Real>(__builtin_nan(""));
+}
+
+/// `a` if the exact number that it stands for is certainly not negative; else NaN, which is what its root is then.
+template <class Real>
+TIGHTROPE_FUNCTION constexpr Real certain_nonnegative(Real a, Real bound) {
+  return a >= bound ? a : static_cast<Real>(__builtin_nan(""));
+}
+
 /// max(a, b) of non-negative numbers in one instruction, for the run-time maxima of SafeBound only. A NaN in `b` is
 /// passed over, a NaN in `a`, the maximum so far, stays: never may a NaN wipe out the numbers before it.
 template <class Real>

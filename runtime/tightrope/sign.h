@@ -38,9 +38,13 @@ TIGHTROPE_FUNCTION constexpr void make_uncertain(Element (&array)[N]) {
 
 /// Tags that select a generated predicate's bound mode.
 namespace bound {
-struct none {};   ///< mode `float`: no bound, the unsafe baseline
-struct safe {};   ///< SafeBound [Wang 2014]
-struct tight {};  ///< TightBound [Wang et al. 2015]
+struct none {};      ///< mode `float`: no bound, the unsafe baseline
+struct safe {};      ///< SafeBound [Wang 2014]
+struct tight {};     ///< TightBound [Wang et al. 2015]
+struct fixed {};     ///< mode `static`: a constant, from the declared ranges
+struct interval {};  ///< interval arithmetic
+struct exact {};     ///< exact arithmetic
+struct staged {};    ///< the cheapest of these that settles the sign; always exact
 }  // namespace bound
 
 }  // namespace tightrope

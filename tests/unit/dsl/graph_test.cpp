@@ -105,9 +105,23 @@ TEST(Graph, PrintsOneLineANode) {
 }
 
 TEST(Graph, NamesAndCountsOperandsOfEveryOperation) {
-  const std::array operations = {Op::input, Op::constant, Op::add, Op::sub, Op::neg, Op::mul, Op::mul_pow2,
-                                 Op::div,   Op::sqrt,     Op::abs, Op::min, Op::max, Op::fma, Op::max_magnitude};
-  const std::array counts = {0, 0, 2, 2, 1, 2, 1, 2, 1, 1, 2, 2, 3, 2};
+  const std::array operations = {Op::input,
+                                 Op::constant,
+                                 Op::add,
+                                 Op::sub,
+                                 Op::neg,
+                                 Op::mul,
+                                 Op::mul_pow2,
+                                 Op::div,
+                                 Op::sqrt,
+                                 Op::abs,
+                                 Op::min,
+                                 Op::max,
+                                 Op::fma,
+                                 Op::max_magnitude,
+                                 Op::certain_nonzero,
+                                 Op::certain_nonnegative};
+  const std::array counts = {0, 0, 2, 2, 1, 2, 1, 2, 1, 1, 2, 2, 3, 2, 2, 2};
   for (std::size_t i = 0; i < operations.size(); ++i) {
     EXPECT_EQ(operand_count(operations[i]), counts[i]);
     for (std::size_t j = 0; j < i; ++j) EXPECT_STRNE(op_name(operations[i]), op_name(operations[j]));
@@ -118,7 +132,7 @@ TEST(Evaluate, ComputesEveryOperationInFloatingPoint) {
   Graph g;
   const NodeId x = g.input(0);
   const NodeId y = g.input(1);
-  const std::array<std::pair<NodeId, double>, 12> expected = {{{g.add(x, y), 1.5},
+  const std::array<std::pair<NodeId, double>, 16> expected = {{{g.add(x, y), 1.5},
                                                                {g.sub(x, y), -4.5},
                                                                {g.mul(x, y), -4.5},
                                                                {g.binary(Op::div, x, y), -0.5},
@@ -129,10 +143,25 @@ TEST(Evaluate, ComputesEveryOperationInFloatingPoint) {
                                                                {g.binary(Op::min, x, y), -1.5},
                                                                {g.binary(Op::max, x, y), 3.0},
                                                                {g.fma(x, y, y), -1.5},
-                                                               {g.binary(Op::max_magnitude, x, y), 3.0}}};
+                                                               {g.binary(Op::max_magnitude, x, y), 3.0},
+                                                               {g.binary(Op::certain_nonzero, y, x), 3.0},
+                                                               {g.binary(Op::certain_nonzero, x, g.constant(1)), -1.5},
+                                                               {g.binary(Op::certain_nonnegative, y, y), 3.0},
+                                                               {g.binary(Op::certain_nonnegative, y, x), 3.0}}};
   const std::array<double, 2> inputs = {-1.5, 3.0};
   const std::vector<double> values = evaluate<double>(g, inputs);
   for (const auto& [node, value] : expected) EXPECT_EQ(values[static_cast<std::size_t>(node)], value) << node;
+}
+
+TEST(Evaluate, GuardsThatFailGiveNaN) {
+  Graph g;
+  const NodeId x = g.input(0);
+  const NodeId y = g.input(1);
+  const NodeId zero = g.constant(0);
+  const std::array<double, 2> inputs = {-1.5, 1.5};
+  for (const NodeId node : {g.binary(Op::certain_nonzero, x, y), g.binary(Op::certain_nonnegative, x, zero)}) {
+    EXPECT_TRUE(std::isnan(evaluate<double>(g, inputs)[static_cast<std::size_t>(node)]));
+  }
 }
 
 TEST(Evaluate, MinAndMaxLetNoNaNPass) {

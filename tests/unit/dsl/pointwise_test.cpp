@@ -304,6 +304,8 @@ Graph mutated(const Graph& graph, NodeId victim) {
         case Op::max:
         case Op::fma:
         case Op::max_magnitude:
+        case Op::certain_nonzero:
+        case Op::certain_nonnegative:
           break;
       }
     }

@@ -90,6 +90,21 @@ TYPED_TEST(SignOf, MaximumOfMagnitudesIsTheLargerNumber) {
   EXPECT_EQ(max_magnitude(Real(2), std::numeric_limits<Real>::infinity()), std::numeric_limits<Real>::infinity());
 }
 
+TYPED_TEST(SignOf, GuardsLetPassWhatIsCertainOnly) {
+  using Real = TypeParam;
+  const Real nan = std::numeric_limits<Real>::quiet_NaN();
+  EXPECT_EQ(certain_nonzero(Real(-3), Real(2)), Real(-3));
+  EXPECT_TRUE(std::isnan(certain_nonzero(Real(-3), Real(3))));
+  EXPECT_TRUE(std::isnan(certain_nonzero(Real(0), Real(0))));
+  EXPECT_TRUE(std::isnan(certain_nonzero(Real(1), nan)));
+  EXPECT_TRUE(std::isnan(certain_nonzero(nan, Real(0))));
+  EXPECT_EQ(certain_nonnegative(Real(3), Real(3)), Real(3));
+  EXPECT_EQ(certain_nonnegative(Real(0), Real(0)), Real(0));
+  EXPECT_TRUE(std::isnan(certain_nonnegative(Real(3), Real(4))));
+  EXPECT_TRUE(std::isnan(certain_nonnegative(Real(-3), Real(0))));
+  EXPECT_TRUE(std::isnan(certain_nonnegative(Real(3), nan)));
+}
+
 TYPED_TEST(SignOf, ANaNDoesNotWipeOutTheMaximumOfMagnitudesBeforeIt) {
   using Real = TypeParam;
   const Real nan = std::numeric_limits<Real>::quiet_NaN();
