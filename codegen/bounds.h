@@ -64,6 +64,7 @@ enum class Weakening {
   drop_underflow,                ///< every underflow term
   halve_unit_roundoff,           ///< u / 2 in place of u
   drop_product_of_errors,        ///< R_a R_b
+  drop_slack,                    ///< the factor 1 + slack on u, and with it every test that the slack is large enough
 };
 
 /// Adds bounds to a predicate; errors (an operation without a bound in this mode, a constant that the precision does

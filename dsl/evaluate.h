@@ -11,89 +11,77 @@
 
 namespace tightrope::dsl {
 
-/// The values of all nodes of `graph`, in order, given one value per input slot.
+/// The value of one node, given one value per input slot and, by `at(id)`, the values of its operands.
 ///
 /// `Number` needs + - * / and unary minus, construction from double, and found by argument-dependent lookup (or built
 /// in for floating point) abs(x), sqrt(x), min(x, y), max(x, y), mul_pow2(x, int), fma(x, y, z). On exact
-/// numbers the guards (Op::certain_nonzero ..) let everything pass.
-template <class Number>
-std::vector<Number> evaluate(const Graph& graph, std::span<const Number> slots) {
+/// numbers, which have no NaN, the guards (Op::certain_nonzero ..) let everything pass.
+template <class Number, class Operands>
+Number evaluate_node(const Node& n, std::span<const Number> slots, const Operands& at) {
   using std::abs;
   using std::fma;
   using std::sqrt;
-  std::vector<Number> v;
-  v.reserve(static_cast<std::size_t>(graph.size()));
-  const auto at = [&](NodeId id) -> const Number& { return v[static_cast<std::size_t>(id)]; };
-  const auto less_or = [](const Number& x, const Number& y, bool want_less) {  // NaN if either operand is NaN
+  const auto less_or = [](const Number& x, const Number& y, bool want_less) -> Number {  // NaN if either operand is NaN
     if (x < y) return want_less ? x : y;
     if (y < x || x == y) return want_less ? y : x;
     return x + y;
   };
   const auto guarded = [](const Number& x, const Number& bound, bool strictly) -> Number {
-    if constexpr (std::is_floating_point_v<Number>) {
-      const bool holds = strictly ? std::abs(x) > bound : x >= bound;
+    if constexpr (std::numeric_limits<Number>::has_quiet_NaN) {
+      const bool holds = strictly ? abs(x) > bound : x >= bound;
       return holds ? x : std::numeric_limits<Number>::quiet_NaN();
     } else {
       return x;
     }
   };
-  for (NodeId id = 0; id < graph.size(); ++id) {
-    const Node& n = graph[id];
-    switch (n.op) {
-      case Op::input:
-        v.push_back(slots[static_cast<std::size_t>(n.index)]);
-        break;
-      case Op::constant:
-        v.push_back(Number(n.value));
-        break;
-      case Op::add:
-        v.push_back(at(n.a) + at(n.b));
-        break;
-      case Op::sub:
-        v.push_back(at(n.a) - at(n.b));
-        break;
-      case Op::neg:
-        v.push_back(-at(n.a));
-        break;
-      case Op::mul:
-        v.push_back(at(n.a) * at(n.b));
-        break;
-      case Op::mul_pow2:
-        if constexpr (std::is_floating_point_v<Number>) {
-          v.push_back(std::ldexp(at(n.a), n.index));
-        } else {
-          v.push_back(mul_pow2(at(n.a), n.index));
-        }
-        break;
-      case Op::div:
-        v.push_back(at(n.a) / at(n.b));
-        break;
-      case Op::sqrt:
-        v.push_back(sqrt(at(n.a)));
-        break;
-      case Op::abs:
-        v.push_back(abs(at(n.a)));
-        break;
-      case Op::min:
-        v.push_back(less_or(at(n.a), at(n.b), true));
-        break;
-      case Op::max:
-        v.push_back(less_or(at(n.a), at(n.b), false));
-        break;
-      case Op::certain_nonzero:
-        v.push_back(guarded(at(n.a), at(n.b), true));
-        break;
-      case Op::certain_nonnegative:
-        v.push_back(guarded(at(n.a), at(n.b), false));
-        break;
-      case Op::max_magnitude:
-        v.push_back(at(n.b) > at(n.a) ? at(n.b) : at(n.a));
-        break;
-      case Op::fma:
-        v.push_back(fma(at(n.a), at(n.b), at(n.c)));
-        break;
-    }
+  switch (n.op) {
+    case Op::input:
+      return slots[static_cast<std::size_t>(n.index)];
+    case Op::constant:
+      return Number(n.value);
+    case Op::add:
+      return at(n.a) + at(n.b);
+    case Op::sub:
+      return at(n.a) - at(n.b);
+    case Op::neg:
+      return -at(n.a);
+    case Op::mul:
+      return at(n.a) * at(n.b);
+    case Op::mul_pow2:
+      if constexpr (std::is_floating_point_v<Number>) {
+        return std::ldexp(at(n.a), n.index);
+      } else {
+        return mul_pow2(at(n.a), n.index);
+      }
+    case Op::div:
+      return at(n.a) / at(n.b);
+    case Op::sqrt:
+      return sqrt(at(n.a));
+    case Op::abs:
+      return abs(at(n.a));
+    case Op::min:
+      return less_or(at(n.a), at(n.b), true);
+    case Op::max:
+      return less_or(at(n.a), at(n.b), false);
+    case Op::certain_nonzero:
+      return guarded(at(n.a), at(n.b), true);
+    case Op::certain_nonnegative:
+      return guarded(at(n.a), at(n.b), false);
+    case Op::max_magnitude:
+      return at(n.b) > at(n.a) ? at(n.b) : at(n.a);
+    case Op::fma:
+      break;
   }
+  return fma(at(n.a), at(n.b), at(n.c));
+}
+
+/// The values of all nodes of `graph`, in order, given one value per input slot.
+template <class Number>
+std::vector<Number> evaluate(const Graph& graph, std::span<const Number> slots) {
+  std::vector<Number> v;
+  v.reserve(static_cast<std::size_t>(graph.size()));
+  const auto at = [&](NodeId id) -> const Number& { return v[static_cast<std::size_t>(id)]; };
+  for (NodeId id = 0; id < graph.size(); ++id) v.push_back(evaluate_node<Number>(graph[id], slots, at));
   return v;
 }
 
