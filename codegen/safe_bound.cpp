@@ -303,7 +303,8 @@ NodeId SafeBounds::underflow_bound(const Pair& p, double loss) {
   }
   if (!(floor < 1)) roundings_ = INFINITY;  // reported as too many: degrees beyond all use
   const int degree = std::max(p.underflow_degree, p.B.degree() - 1);
-  const NodeId c = r_.constant(floor);
+  // Not a subnormal number: to multiply by one takes processors more than a hundred cycles.
+  const NodeId c = r_.constant(std::max(floor, std::ldexp(1.0, format_.min_exponent)));
   return degree <= 0 ? c : r_.times(c, r_.power(groups_.overall_maximum(r_), degree));
 }
 

@@ -9,7 +9,7 @@
 //     Y[3]: degree 2 in t, k = 7, B = 2 d_z v_x v_y + 2 d_y v_x v_z + 2 d_x v_y v_z
 //   shifted
 //     operations for values 48 (22 sums, 22 products, 2 divisions, 2 exact)
-//     operations for bounds 50 (26 sums, 23 products, 1 division)
+//     operations for bounds 48 (26 sums, 21 products, 1 division)
 //     Z[4]: degree 3 in t, k = 10, B = 6 v_x v_y v_z k + 2 d_z v_x v_y + 2 d_y v_x v_z + 2 d_x v_y v_z
 //     diff_dot_n_p_a[2]: degree 1 in t, k = 8, B = 8 d_z v_x v_y + 8 d_y v_x v_z + 8 d_x v_y v_z
 #pragma once
@@ -49,6 +49,7 @@ struct door<bound::safe, double> {
     double v45;
     double v46;
     double v47;
+    double v48;
     double v52;
     double v56;
     double v61;
@@ -143,7 +144,8 @@ struct door<bound::safe, double> {
     state.v46 = v46;
     const double v47 = product(v46, v46);
     state.v47 = v47;
-    const double v48 = product(0x0.0000000000015p-1022, v47);
+    const double v48 = product(0x1p-1022, v47);
+    state.v48 = v48;
     const double v49 = v37 + v48;
     const double v50 = product(u_t0[1], v_t0[2]);
     const double v51 = product(u_t0[2], v_t0[1]);
@@ -272,7 +274,7 @@ struct door<bound::safe, double> {
     const double v47 = state.v47;
     const double v46 = state.v46;
     const double v133 = product(v46, v47);
-    const double v134 = product(0x0.0000000000083p-1022, v133);
+    const double v134 = product(0x1p-1022, v133);
     const double v135 = v132 + v134;
     const double v63 = state.v63;
     const double v52 = state.v52;
@@ -318,59 +320,58 @@ struct door<bound::safe, double> {
     const double v168 = v128 + 0x1.4000000000001p-50;
     const double v169 = product(v130, v168);
     const double v170 = product(v167, v169);
-    const double v171 = product(v133, 0x0.0000000000081p-1022);
-    const double v172 = v170 + v171;
-    const double v173 = v172 + v160;
-    result.Z[1] = {v159, v173};
+    const double v171 = v134 + v170;
+    const double v172 = v171 + v160;
+    result.Z[1] = {v159, v172};
     const double v114 = state.v114;
-    const double v174 = v97 + v114;
-    const double v175 = product(u_t1[0], v78);
-    const double v176 = product(u_t1[1], v86);
-    const double v177 = v175 + v176;
-    const double v178 = product(u_t1[2], v95);
-    const double v179 = v178 + v177;
+    const double v173 = v97 + v114;
+    const double v174 = product(u_t1[0], v78);
+    const double v175 = product(u_t1[1], v86);
+    const double v176 = v174 + v175;
+    const double v177 = product(u_t1[2], v95);
+    const double v178 = v177 + v176;
     const double v103 = state.v103;
-    const double v180 = product(u_t0[0], v103);
+    const double v179 = product(u_t0[0], v103);
     const double v107 = state.v107;
-    const double v181 = product(u_t0[1], v107);
-    const double v182 = v180 + v181;
+    const double v180 = product(u_t0[1], v107);
+    const double v181 = v179 + v180;
     const double v112 = state.v112;
-    const double v183 = product(u_t0[2], v112);
-    const double v184 = v183 + v182;
-    const double v185 = v179 + v184;
-    const double v186 = product(k.value, v185);
-    const double v187 = v174 - v186;
-    const double v188 = v187 / 0x1.8p+1;
-    const double v189 = v188 - v188;
-    const double v190 = v172 + v189;
-    result.Z[2] = {v188, v190};
-    const double v191 = product(u_t1[0], v103);
-    const double v192 = product(u_t1[1], v107);
-    const double v193 = v191 + v192;
-    const double v194 = product(u_t1[2], v112);
-    const double v195 = v194 + v193;
-    const double v196 = product(k.value, v195);
-    const double v197 = v114 - v196;
-    const double v198 = v197 - v197;
-    const double v199 = v135 + v198;
-    result.Z[3] = {v197, v199};
-    const double v200 = product(v17, 0x1.0000100000005p-47);
-    const double v201 = product(v29, 0x1.0000100000005p-47);
-    const double v202 = v200 + v201;
-    const double v203 = product(v35, 0x1.0000100000005p-47);
-    const double v204 = v202 + v203;
-    const double v205 = product(v47, 0x0.000000000002dp-1022);
-    const double v206 = v204 + v205;
-    const double v207 = product(v63, 0x1p+1);
-    const double v208 = v97 - v207;
-    const double v209 = v208 - v208;
-    const double v210 = v206 + v209;
-    result.diff_dot_n_p_a[0] = {v208, v210};
-    const double v211 = product(v114, 0x1p+1);
-    const double v212 = v211 - v97;
-    const double v213 = v212 - v212;
-    const double v214 = v206 + v213;
-    result.diff_dot_n_p_a[1] = {v212, v214};
+    const double v182 = product(u_t0[2], v112);
+    const double v183 = v182 + v181;
+    const double v184 = v178 + v183;
+    const double v185 = product(k.value, v184);
+    const double v186 = v173 - v185;
+    const double v187 = v186 / 0x1.8p+1;
+    const double v188 = v187 - v187;
+    const double v189 = v171 + v188;
+    result.Z[2] = {v187, v189};
+    const double v190 = product(u_t1[0], v103);
+    const double v191 = product(u_t1[1], v107);
+    const double v192 = v190 + v191;
+    const double v193 = product(u_t1[2], v112);
+    const double v194 = v193 + v192;
+    const double v195 = product(k.value, v194);
+    const double v196 = v114 - v195;
+    const double v197 = v196 - v196;
+    const double v198 = v135 + v197;
+    result.Z[3] = {v196, v198};
+    const double v48 = state.v48;
+    const double v199 = product(v17, 0x1.0000100000005p-47);
+    const double v200 = product(v29, 0x1.0000100000005p-47);
+    const double v201 = v199 + v200;
+    const double v202 = product(v35, 0x1.0000100000005p-47);
+    const double v203 = v201 + v202;
+    const double v204 = v48 + v203;
+    const double v205 = product(v63, 0x1p+1);
+    const double v206 = v97 - v205;
+    const double v207 = v206 - v206;
+    const double v208 = v204 + v207;
+    result.diff_dot_n_p_a[0] = {v206, v208};
+    const double v209 = product(v114, 0x1p+1);
+    const double v210 = v209 - v97;
+    const double v211 = v210 - v210;
+    const double v212 = v204 + v211;
+    result.diff_dot_n_p_a[1] = {v210, v212};
     return result;
   }
 };
