@@ -64,8 +64,9 @@ enum class Weakening {
   drop_underflow,                ///< every underflow term
   halve_unit_roundoff,           ///< u / 2 in place of u
   drop_product_of_errors,        ///< R_a R_b
-  drop_slack,                    ///< the factor 1 + slack on u, and with it every test that the slack is large enough
 };
+
+const char* name(Weakening weakening);  ///< as the enumerator; "" for a number that none of them has
 
 /// Adds bounds to a predicate; errors (an operation without a bound in this mode, a constant that the precision does
 /// not hold) go to `diagnostics` with the place of the output.

@@ -12,7 +12,8 @@ struct FloatFormat {
   int max_exponent;      ///< of the largest finite number, below 2^(max_exponent + 1): 1023, 127
   double unit_roundoff;  ///< u: |fl(x) - x| <= u |fl(x)| barring underflow
   double eta;            ///< the smallest positive subnormal; a rounding in the subnormal range errs by at most eta / 2
-  double slack;        ///< delta: rules use u (1 + delta) in place of u, which pays for the roundings inside the bound
+  double slack;        ///< delta: rules use u (1 + delta) in place of u, which pays for the roundings inside the bound;
+                       ///< 0: the ideal rules, whose bounds hold only if they are evaluated exactly (tests/rules)
   double floor_limit;  ///< a compile-time underflow floor above this would spoil the bounds: use run-time terms instead
   double largest;      ///< the largest finite number
 };

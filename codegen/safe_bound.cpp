@@ -46,8 +46,7 @@ class SafeBounds {
         graph_(graph),
         r_(graph, format),
         groups_(predicate, one_group, graph),
-        unit_(format_.unit_roundoff * (weakening == Weakening::halve_unit_roundoff ? 0.5 : 1)),
-        slack_(weakening == Weakening::drop_slack ? 0 : format_.slack) {}
+        unit_(format_.unit_roundoff * (weakening == Weakening::halve_unit_roundoff ? 0.5 : 1)) {}
 
   void run(BoundedPredicate& result);
   bool too_many_monomials() const { return too_many_monomials_; }
@@ -84,7 +83,6 @@ class SafeBounds {
   BoundExpressions r_;
   InputGroups groups_;
   double unit_;
-  double slack_;
   std::vector<Pair> pairs_;
   bool too_many_monomials_ = false;
   double largest_floor_ = 0;
@@ -266,7 +264,7 @@ double SafeBounds::evaluation_loss(const MagnitudePolynomial& B, double factor) 
 NodeId SafeBounds::exact_input_bound(const Pair& p, double& loss) {
   if (p.k == 0) return no_node;
   const double ku = p.k * unit_;
-  const double factor = div_up(ku, 1 - ku) * (1 + slack_);
+  const double factor = div_up(ku, 1 - ku) * (1 + format_.slack);
   loss = evaluation_loss(p.B, factor);
   return evaluate(p.B, factor);
 }
@@ -285,11 +283,11 @@ NodeId SafeBounds::bounded_input_bound(const Pair& p, double& loss) {
     const NodeId factor = r_.power(r_.plus(rho, r_.constant(1)), degree);
     spread = spread == no_node ? factor : r_.times(spread, factor);
   }
-  const NodeId B = evaluate(p.B, 1 + slack_);
+  const NodeId B = evaluate(p.B, 1 + format_.slack);
   if (B == no_node) return no_node;
   // rho <= 1, so that F <= 2^d and the sum is at most k u + d.
   const double amplification = mul_up(std::exp2(degrees), add_up(p.k * unit_, degrees)) * (1 + 0x1p-9);
-  loss = add_up(mul_up(evaluation_loss(p.B, 1 + slack_), amplification), 1);
+  loss = add_up(mul_up(evaluation_loss(p.B, 1 + format_.slack), amplification), 1);
   return r_.times(B, spread == no_node ? x : r_.times(spread, x));
 }
 
@@ -377,7 +375,7 @@ void add_safe_bounds(const dsl::Predicate& predicate, const FloatFormat& format,
       one_group = true;
     } else if (use_ranges && bounds.largest_floor() > format.floor_limit) {
       use_ranges = false;
-    } else if (weakening != Weakening::drop_slack && 2 * bounds.roundings() * format.unit_roundoff > format.slack) {
+    } else if (format.slack > 0 && 2 * bounds.roundings() * format.unit_roundoff > format.slack) {
       diagnostics.error(predicate.stages.front().outputs.front().span,
                         "the error bound of this predicate takes too many roundings for the precision");
       return;

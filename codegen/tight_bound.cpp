@@ -458,8 +458,8 @@ void TightBounds::run(BoundedPredicate& result) {
 void add_tight_bounds(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics,
                       Weakening weakening, BoundedPredicate& result) {
   const FloatFormat& f = format;
-  const bool without_slack = weakening == Weakening::drop_slack;
-  double slack = without_slack ? 0 : f.slack;
+  const bool ideal = f.slack == 0;
+  double slack = f.slack;
   bool use_ranges = all_inputs_have_ranges(predicate);
   for (;;) {
     BoundedPredicate attempt;
@@ -474,11 +474,11 @@ void add_tight_bounds(const dsl::Predicate& predicate, const FloatFormat& format
     }
     if (use_ranges && bounds.largest_floor() > f.floor_limit) {
       use_ranges = false;  // ranges so wide that the floor would drown small values: run-time terms are sharper
-    } else if (!without_slack && needed > slack && needed > 0.125) {
+    } else if (!ideal && needed > slack && needed > 0.125) {
       diagnostics.error(predicate.stages.front().outputs.front().span,
                         "the error bound of this predicate takes too many roundings for the precision");
       return;
-    } else if (!without_slack && needed > slack) {
+    } else if (!ideal && needed > slack) {
       slack = std::exp2(std::ceil(std::log2(needed)));
     } else {
       result = std::move(attempt);
