@@ -8,6 +8,7 @@
 #include "codegen/input_groups.h"
 #include "codegen/magnitude_polynomial.h"
 #include "codegen/precision.h"
+#include "codegen/raised_maxima.h"
 
 namespace tightrope::codegen {
 
@@ -26,6 +27,8 @@ struct Pair {
   std::map<int, int> bounded_degrees;  ///< d of every bounded group
   double underflow = 0;                ///< with ranges: A in units of eta; else C
   int underflow_degree = 0;            ///< p
+  double underflow_count = 0;          ///< N of the raised maxima
+  double least_sum = INFINITY;         ///< c of the raised maxima
   bool rounded = false;                ///< has any error at all
   bool may_overflow = false;           ///< some value that this one is computed from, or itself, may be infinite
   std::vector<NodeId> guards;          ///< operands of max and min, where an infinity could get lost
@@ -65,6 +68,7 @@ class SafeBounds {
   NodeId evaluate(const MagnitudePolynomial& B, double factor);
   double evaluation_loss(const MagnitudePolynomial& B, double factor) const;
   NodeId exact_input_bound(const Pair& pair, double& loss);
+  NodeId raised_bound(const Pair& pair);
   NodeId bounded_input_bound(const Pair& pair, double& loss);
   NodeId underflow_bound(const Pair& pair, double loss);
   NodeId output_bound(NodeId id, const Pair& pair);
@@ -112,6 +116,8 @@ Pair SafeBounds::merged(const Pair& a, const Pair& b) {
     d = std::max(d, degree);
   }
   p.underflow_degree = std::max(a.underflow_degree, b.underflow_degree);
+  p.underflow_count = std::max(a.underflow_count, b.underflow_count);
+  p.least_sum = std::min(a.least_sum, b.least_sum);
   p.rounded = a.rounded || b.rounded;
   p.may_overflow = a.may_overflow || b.may_overflow;
   p.guards = a.guards;
@@ -137,6 +143,8 @@ Pair SafeBounds::product(const Pair& a, const Pair& b) const {
   p.bounded_degrees = a.bounded_degrees;
   for (const auto& [group, degree] : b.bounded_degrees) p.bounded_degrees[group] += degree;
   p.rounded = true;
+  p.underflow_count = a.underflow_count + b.underflow_count + 2;
+  p.least_sum = std::min(p.least_sum, p.B.coefficient_sum());
   // |f^| <= B F + A: the inflation by 2^-9 stands for F, the last term for A A; eta / 2 is the product's own
   // underflow. A bounded group's factor F may be as large as 2^d.
   double spread = 1 + 0x1p-9;
@@ -164,6 +172,8 @@ Pair SafeBounds::scaled(const Pair& a, double factor, bool may_underflow) const 
   p.underflow = mul_up(a.underflow, factor);
   if (may_underflow && !weakened(Weakening::drop_underflow)) {
     p.underflow = add_up(p.underflow, 1);
+    p.underflow_count += 1;
+    p.least_sum = std::min(p.least_sum, p.B.coefficient_sum());
     p.rounded = true;
   }
   return p;
@@ -219,6 +229,25 @@ Pair SafeBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
 }
 
 // ------------------------------------------------------------------ B and the bound as nodes
+
+/// B~ (F (1 + N theta) - 1) by raised maxima (header); no_node where they do not do: the threshold t would be felt, or
+/// the bound itself could underflow.
+NodeId SafeBounds::raised_bound(const Pair& p) {
+  if (use_ranges_ || p.k == 0 || p.underflow_count == 0 || weakened(Weakening::drop_underflow)) return no_node;
+  constexpr int least_threshold = 30;  // t = 2^-30 or below: inputs of that size are still told apart
+  const int E = -format_.min_exponent - format_.significand_bits - 8;
+  const int exponent = E / std::max(1, p.B.degree());
+  const double theta = format_.eta / (p.least_sum * (1 - 0x1p-9)) * std::ldexp(1.0, E);
+  const double loss = 2 * p.underflow_count * theta;  // F < 2
+  double least_coefficient = INFINITY;
+  for (const auto& [monomial, coefficient] : p.B.monomials()) {
+    least_coefficient = std::min(least_coefficient, coefficient);
+  }
+  const bool fits = exponent >= least_threshold && p.underflow_count * loss < unit_ && least_coefficient >= 0x1p-8;
+  if (!fits) return no_node;
+  const double ku = p.k * unit_;
+  return evaluate_raised(p.B, add_up(div_up(ku, 1 - ku), loss) * (1 + slack_), std::ldexp(1.0, -exponent), groups_, r_);
+}
 
 /// factor * B: the factor goes into the coefficients, which are multiplied last.
 NodeId SafeBounds::evaluate(const MagnitudePolynomial& B, double factor) {
@@ -308,9 +337,12 @@ NodeId SafeBounds::underflow_bound(const Pair& p, double loss) {
 
 NodeId SafeBounds::output_bound(NodeId id, const Pair& p) {
   if (!p.rounded) return r_.zero_if_finite(id);
-  double loss = 0;
-  NodeId bound = p.bounded_degrees.empty() ? exact_input_bound(p, loss) : bounded_input_bound(p, loss);
-  bound = r_.plus(bound, underflow_bound(p, loss));
+  NodeId bound = p.bounded_degrees.empty() ? raised_bound(p) : no_node;
+  if (bound == no_node) {
+    double loss = 0;
+    bound = p.bounded_degrees.empty() ? exact_input_bound(p, loss) : bounded_input_bound(p, loss);
+    bound = r_.plus(bound, underflow_bound(p, loss));
+  }
   // The slack pays for the roundings in the bound, for 1 + 2u on every difference in B, and for (1 + u)^k in F.
   if (bound != no_node) roundings_ = std::max(roundings_, r_.roundings(bound) + 2 * p.B.degree() + p.k);
   return with_guards(bound, id, p);

@@ -23,6 +23,17 @@
 ///
 /// The evaluation of B has its own underflow, which goes into A as well.
 ///
+/// *Raised maxima* replace A where all inputs are exact and none has a range: B~ is B with every maximum g raised to
+/// max(g, t), t = 2^-(E / degree of B), so that no product of maxima is below 2^-E and nothing underflows in B~.
+/// Lemma: A <= N theta B~ F, where theta = eta / (c 2^-E), c the least sum of coefficients of the B of a product,
+/// quotient or scaling downwards on the way (so eta <= theta B~ for each of them), and N counts:
+///
+///     product  N = Na + Nb + 2;   quotient, scaling  N = Na + 1;   sum, max, min  N = max(Na, Nb);   leaf  N = 0
+///
+/// Proof by induction: a sum's rounding turns F into F (1 + u); a product's A is at most F B~ (Na theta + Nb theta + Na
+/// Nb theta^2) + eta, and Na Nb theta^2 <= theta as long as N^2 theta <= 1. So |f^ - f| <= B~ (F (1 + N theta) - 1),
+/// and N theta is of no account: one comparison a maximum instead of a power of the largest, a product and a sum.
+///
 /// *Groups*: computed differences per coordinate axis; exact vectors used directly per axis; every scalar parameter and
 /// every bounded parameter on its own. The roundings of the maxima (1 + 2u for a difference), of B and of the product
 /// are counted and paid by a factor 1 + 2^-20 (2^-10 in single precision); too many of them are a diagnostic.

@@ -57,6 +57,8 @@ const char* name(Weakening weakening) {
       return "halve_unit_roundoff";
     case Weakening::drop_product_of_errors:
       return "drop_product_of_errors";
+    case Weakening::drop_slack:
+      return "drop_slack";
   }
   return "";
 }
