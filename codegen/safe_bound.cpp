@@ -246,7 +246,8 @@ NodeId SafeBounds::raised_bound(const Pair& p) {
   const bool fits = exponent >= least_threshold && p.underflow_count * loss < unit_ && least_coefficient >= 0x1p-8;
   if (!fits) return no_node;
   const double ku = p.k * unit_;
-  return evaluate_raised(p.B, add_up(div_up(ku, 1 - ku), loss) * (1 + slack_), std::ldexp(1.0, -exponent), groups_, r_);
+  return evaluate_raised(p.B, add_up(div_up(ku, 1 - ku), loss) * (1 + format_.slack), std::ldexp(1.0, -exponent),
+                         groups_, r_);
 }
 
 /// factor * B: the factor goes into the coefficients, which are multiplied last.
