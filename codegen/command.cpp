@@ -18,6 +18,7 @@ namespace {
 constexpr int done = 0;
 constexpr int bad_program = 1;
 constexpr int bad_usage = 2;
+constexpr int internal_error = 3;
 
 int usage_error(const std::string& message) {
   fmt::print(stderr, "tightrope: error: {}\n", message);
@@ -225,7 +226,13 @@ int run_command(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? done : bad_usage;
   }
-  return run(arguments);
+  try {
+    return run(arguments);
+  } catch (const TranslationError& error) {
+    fmt::print(stderr, "tightrope: internal error: what was printed is not what was analysed; nothing is written\n{}\n",
+               error.what());
+    return internal_error;
+  }
 }
 
 }  // namespace tightrope::codegen

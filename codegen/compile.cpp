@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "codegen/clang/format.h"
+#include "codegen/clang/validate.h"
 #include "codegen/hash.h"
 #include "codegen/print_cpp.h"
 #include "codegen/print_tests.h"
@@ -38,6 +40,17 @@ std::uint64_t source_hash(const dsl::Program& program, const dsl::SourceMap& sou
   Fnv1a hash;
   for (const std::uint32_t file : program.files) hash.add_text(sources.file(file).text);
   return hash.value();
+}
+
+/// The header's final text, proved to be what was analysed.
+std::string validated_header(std::span<const GeneratedPredicate> predicates, const HeaderOptions& options,
+                             const std::string& name) {
+  std::string text = formatted(print_header(predicates, options), name);
+  std::vector<AnalysedPredicate> analysed;
+  for (const GeneratedPredicate& p : predicates) analysed.push_back({p.predicate, p.bounded});
+  const std::string mismatch = validate(text, name, analysed, options.mode, options.precision);
+  if (!mismatch.empty()) throw TranslationError(mismatch);
+  return text;
 }
 
 }  // namespace
@@ -77,8 +90,9 @@ std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl:
     for (std::size_t i = 0; i < program.predicates.size(); ++i) {
       predicates.push_back({&program.predicates[i], &bounded.predicates[i]});
     }
-    files.push_back({request.directory / header_name(stem, bounded.mode, bounded.precision),
-                     print_header(predicates, {source_name, hash, bounded.mode, bounded.precision})});
+    const std::string name = header_name(stem, bounded.mode, bounded.precision);
+    files.push_back({request.directory / name,
+                     validated_header(predicates, {source_name, hash, bounded.mode, bounded.precision}, name)});
   }
   if (request.tests) {
     // The reference is the direct product scheme, whatever the generated code uses.

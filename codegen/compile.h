@@ -2,6 +2,7 @@
 /// From a .pred file to the texts that `tightrope compile` writes.
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,11 @@ struct CompileRequest {
   std::string depfile;  ///< empty: none
 };
 
+/// What was printed is not what was analysed (codegen/clang/validate.h): a defect of this compiler.
+struct TranslationError : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
 /// A program with the bounds of one mode and precision, predicate by predicate.
 struct BoundedProgram {
   BoundMode mode = BoundMode::tight;
@@ -32,7 +38,8 @@ std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const 
                                              const std::vector<Precision>& precisions, dsl::Diagnostics& diagnostics,
                                              Weakening weakening = Weakening::none);
 
-/// The files to write; nothing if there are errors. `weakening` is the test hook of codegen/bounds.h.
+/// The files to write, formatted, every header validated; nothing if there are errors. Throws a TranslationError.
+/// `weakening` is the test hook of codegen/bounds.h.
 std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl::SourceMap& sources,
                                              dsl::Diagnostics& diagnostics, Weakening weakening = Weakening::none);
 

@@ -165,9 +165,10 @@ struct door<bound::none, double> {
     return shifted_in_range(p, a, u_t0, u_t1, v_t0, v_t1, k, state);
   }
 
-  TIGHTROPE_FUNCTION static shifted_result shifted_in_range(
-      const double* /*p*/, const double* /*a*/, const double* u_t0, const double* u_t1, const double* /*v_t0*/,
-      const double* /*v_t1*/, Bounded<double> k, const State& state) noexcept {
+  TIGHTROPE_FUNCTION static shifted_result shifted_in_range(const double* /*p*/, const double* /*a*/,
+                                                            const double* u_t0, const double* u_t1,
+                                                            const double* /*v_t0*/, const double* /*v_t1*/,
+                                                            Bounded<double> k, const State& state) noexcept {
     shifted_result result;
     const double v16 = state.v16;
     const double v2 = state.v2;
