@@ -31,38 +31,6 @@ constexpr std::array all_weakenings = {
     Weakening::halve_unit_roundoff,     Weakening::drop_product_of_errors,
 };
 
-const char* name(Weakening weakening) {
-  switch (weakening) {
-    case Weakening::none:
-      return "none";
-    case Weakening::drop_rounding_of_sums:
-      return "drop_rounding_of_sums";
-    case Weakening::drop_rounding_of_products:
-      return "drop_rounding_of_products";
-    case Weakening::drop_rounding_of_differences:
-      return "drop_rounding_of_differences";
-    case Weakening::drop_first_factor_error:
-      return "drop_first_factor_error";
-    case Weakening::drop_second_factor_error:
-      return "drop_second_factor_error";
-    case Weakening::drop_operand_error_of_sums:
-      return "drop_operand_error_of_sums";
-    case Weakening::drop_division_rounding:
-      return "drop_division_rounding";
-    case Weakening::drop_input_bound:
-      return "drop_input_bound";
-    case Weakening::drop_underflow:
-      return "drop_underflow";
-    case Weakening::halve_unit_roundoff:
-      return "halve_unit_roundoff";
-    case Weakening::drop_product_of_errors:
-      return "drop_product_of_errors";
-    case Weakening::drop_slack:
-      return "drop_slack";
-  }
-  return "";
-}
-
 struct Case {
   std::string name;
   Weakening weakening;
