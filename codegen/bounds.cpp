@@ -5,6 +5,7 @@
 #include "codegen/precision.h"
 #include "codegen/safe_bound.h"
 #include "codegen/simplify.h"
+#include "codegen/static_bound.h"
 #include "codegen/tight_bound.h"
 
 namespace tightrope::codegen {
@@ -108,6 +109,8 @@ BoundedPredicate add_bounds(const dsl::Predicate& original, BoundMode mode, cons
       add_tight_bounds(predicate, format, diagnostics, weakening, result);
       break;
     case BoundMode::fixed:
+      add_static_bounds(predicate, format, diagnostics, weakening, result);
+      break;
     case BoundMode::interval:
       assert(false && "not there yet");
       break;

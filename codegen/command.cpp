@@ -93,6 +93,7 @@ std::string interpret(const Arguments& arguments, CompileRequest& request) {
                                       {{"float", {BoundMode::none}},
                                        {"safe", {BoundMode::safe}},
                                        {"tight", {BoundMode::tight}},
+                                       {"static", {BoundMode::fixed}},
                                        {"all", {BoundMode::none, BoundMode::safe, BoundMode::tight}}},
                                       error);
   if (!error.empty()) return error;

@@ -8,6 +8,7 @@
 #include "codegen/count.h"
 #include "codegen/interface.h"
 #include "codegen/measure.h"
+#include "codegen/precision.h"
 
 namespace tightrope::codegen {
 namespace {
@@ -81,6 +82,7 @@ Json to_json(const Entry& entry) {
         json["k"] = bound.roundings;
         json["B"] = bound.magnitude;
       }
+      if (entry.mode == BoundMode::fixed) json["constant"] = bound.constant;
       if (!bound.assumption.empty()) json["assumption"] = bound.assumption;
       for (std::size_t m = 0; m < entry.measures.size(); ++m) {
         json["measured"].push_back(to_json(entry.measures[m][s].outputs[o], samplings[m]));
@@ -112,6 +114,12 @@ std::string to_text(const OutputMeasure& m, Sampling sampling, Precision precisi
   return text;
 }
 
+/// "0x1p-49 = 16 u"
+std::string constant_text(const OutputBound& bound, Precision precision) {
+  const double in_units = bound.constant / format(precision).unit_roundoff;
+  return fmt::format("{} = {:.6g} u", literal(bound.constant, Precision::binary64), in_units);
+}
+
 std::string to_text(const Entry& entry) {
   std::string text = fmt::format("{}, bound {}, {}\n", entry.predicate.name, name(entry.mode), name(entry.precision));
   for (std::size_t s = 0; s < entry.predicate.stages.size(); ++s) {
@@ -127,6 +135,8 @@ std::string to_text(const Entry& entry) {
                           cost.value.total(), cost.bound.total());
       if (entry.mode == BoundMode::safe)
         text += fmt::format("      k = {}, B = {}\n", bound.roundings, bound.magnitude);
+      if (entry.mode == BoundMode::fixed)
+        text += fmt::format("      bound {}\n", constant_text(bound, entry.precision));
       if (!bound.assumption.empty()) text += fmt::format("      {}\n", bound.assumption);
       for (std::size_t m = 0; m < entry.measures.size(); ++m) {
         text += to_text(entry.measures[m][s].outputs[o], samplings[m], entry.precision);
