@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "codegen/interval_bound.h"
 #include "codegen/precision.h"
 #include "codegen/safe_bound.h"
 #include "codegen/simplify.h"
@@ -112,7 +113,7 @@ BoundedPredicate add_bounds(const dsl::Predicate& original, BoundMode mode, cons
       add_static_bounds(predicate, format, diagnostics, weakening, result);
       break;
     case BoundMode::interval:
-      assert(false && "not there yet");
+      add_interval_bounds(predicate, format, weakening, result);
       break;
     case BoundMode::exact:
     case BoundMode::staged:

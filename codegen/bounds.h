@@ -36,8 +36,8 @@ struct OutputBound {
   std::vector<BoundedNode> elements;  ///< as Output::nodes
   int roundings = 0;                  ///< safe: k; else 0
   std::string magnitude;              ///< safe: B as text, "6 b_x b_y b_z"; else empty
-  double constant = 0;                ///< static: the largest bound of the elements
   std::string assumption;  ///< what the bound rests on beyond the model, e.g. the declared ranges; may be empty
+  double constant = 0;     ///< static: the largest bound of the elements
 };
 
 struct BoundedStage {

@@ -94,6 +94,7 @@ std::string interpret(const Arguments& arguments, CompileRequest& request) {
                                        {"safe", {BoundMode::safe}},
                                        {"tight", {BoundMode::tight}},
                                        {"static", {BoundMode::fixed}},
+                                       {"interval", {BoundMode::interval}},
                                        {"all", {BoundMode::none, BoundMode::safe, BoundMode::tight}}},
                                       error);
   if (!error.empty()) return error;

@@ -339,6 +339,7 @@ std::string PredicatePrinter::summary() const {
       std::string facts = fmt::format("     {}{}: degree {} in t", stage.outputs[o].name,
                                       extents_text(stage.outputs[o].extents), stage.outputs[o].degree);
       if (options_.mode == BoundMode::safe) facts += fmt::format(", k = {}, B = {}", bound.roundings, bound.magnitude);
+      if (options_.mode == BoundMode::fixed) facts += ", bound " + literal(bound.constant, options_.precision);
       if (!bound.assumption.empty()) facts += "; " + bound.assumption;
       result += comment_lines("", facts);
     }
