@@ -89,14 +89,16 @@ struct Arguments {
 std::string interpret(const Arguments& arguments, CompileRequest& request) {
   std::string error;
   request.file = arguments.files.front();
-  request.modes = selected<BoundMode>("--bound", arguments.bound,
-                                      {{"float", {BoundMode::none}},
-                                       {"safe", {BoundMode::safe}},
-                                       {"tight", {BoundMode::tight}},
-                                       {"static", {BoundMode::fixed}},
-                                       {"interval", {BoundMode::interval}},
-                                       {"all", {BoundMode::none, BoundMode::safe, BoundMode::tight}}},
-                                      error);
+  request.modes = selected<BoundMode>(
+      "--bound", arguments.bound,
+      {{"float", {BoundMode::none}},
+       {"safe", {BoundMode::safe}},
+       {"tight", {BoundMode::tight}},
+       {"static", {BoundMode::fixed}},
+       {"interval", {BoundMode::interval}},
+       {"all", {BoundMode::none, BoundMode::safe, BoundMode::tight, BoundMode::fixed, BoundMode::interval}}},
+      error);
+  request.only_applicable_modes = arguments.bound == "all";
   if (!error.empty()) return error;
   request.precisions = selected<Precision>("--real", arguments.real,
                                            {{"double", {Precision::binary64}},
@@ -172,7 +174,7 @@ int run_report(const Arguments& arguments) {
   dsl::Diagnostics diagnostics;
   const dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
   if (diagnostics.has_errors()) return program_error(diagnostics, sources);
-  const auto bounded = bounded_programs(program, request.modes, request.precisions, diagnostics);
+  const auto bounded = bounded_programs(program, modes_of(request, program), request.precisions, diagnostics);
   if (diagnostics.has_errors()) return program_error(diagnostics, sources);
   const std::string text = report(program, bounded, {arguments.format == "json", arguments.measure});
   std::fputs(text.c_str(), stdout);
@@ -185,7 +187,7 @@ void add_file_option(CLI::App& command, Arguments& arguments, bool several) {
 }
 
 void add_program_options(CLI::App& command, Arguments& arguments) {
-  command.add_option("--bound", arguments.bound, "float, safe, tight, a comma list of them, or all")
+  command.add_option("--bound", arguments.bound, "float, safe, tight, static, interval, a comma list of them, or all")
       ->capture_default_str();
   command.add_option("--real", arguments.real, "double, float, double,float or all")->capture_default_str();
   command

@@ -73,12 +73,22 @@ std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const 
   return result;
 }
 
+std::vector<BoundMode> modes_of(const CompileRequest& request, const dsl::Program& program) {
+  std::vector<BoundMode> modes = request.modes;
+  if (!request.only_applicable_modes) return modes;
+  dsl::Diagnostics errors;
+  bounded_programs(program, {BoundMode::fixed}, request.precisions, errors);
+  if (errors.has_errors()) std::erase(modes, BoundMode::fixed);
+  return modes;
+}
+
 std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl::SourceMap& sources,
                                              dsl::Diagnostics& diagnostics, Weakening weakening) {
   const dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
   if (diagnostics.has_errors()) return std::nullopt;
+  const std::vector<BoundMode> modes = modes_of(request, program);
   const std::vector<BoundedProgram> programs =
-      bounded_programs(program, request.modes, request.precisions, diagnostics, weakening);
+      bounded_programs(program, modes, request.precisions, diagnostics, weakening);
   if (diagnostics.has_errors()) return std::nullopt;
 
   const std::string stem = fs::path(request.file).stem().string();
@@ -99,8 +109,8 @@ std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl:
     dsl::SourceMap reference_sources;
     const dsl::Program reference = dsl::load_program(request.file, reference_sources, diagnostics, {});
     if (diagnostics.has_errors()) return std::nullopt;
-    const TestOptions options = {stem,          source_name,        hash,
-                                 request.modes, request.precisions, request.products == dsl::ProductScheme::direct};
+    const TestOptions options = {stem,  source_name,        hash,
+                                 modes, request.precisions, request.products == dsl::ProductScheme::direct};
     files.push_back({request.directory / (stem + ".test.cpp"), print_tests(reference, options)});
     files.push_back({request.directory / "CMakeLists.txt", print_test_project()});
   }

@@ -16,6 +16,7 @@ struct CompileRequest {
   std::vector<BoundMode> modes = {BoundMode::tight};
   std::vector<Precision> precisions = {Precision::binary64};
   dsl::ProductScheme products = dsl::ProductScheme::direct;
+  bool only_applicable_modes = false;  ///< leave out `static` where the predicates do not admit it
   bool tests = false;
   std::filesystem::path directory = ".";
   std::string depfile;  ///< empty: none
@@ -32,6 +33,9 @@ struct BoundedProgram {
   Precision precision = Precision::binary64;
   std::vector<BoundedPredicate> predicates;
 };
+
+/// The modes of the request, without `static` if they are to be applicable and it has no bound of some predicate.
+std::vector<BoundMode> modes_of(const CompileRequest& request, const dsl::Program& program);
 
 /// Bounds of every predicate in every combination; an error that several combinations share is reported once.
 std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const std::vector<BoundMode>& modes,

@@ -22,6 +22,21 @@ constexpr int tests_of_one_predicate = 15;
 constexpr double definite_tight = 0.5;
 constexpr double definite_safe = 0.25;
 
+/// The largest number of inputs that are multiplied with each other in a graph.
+int degree(const dsl::Graph& graph) {
+  std::vector<int> degrees;
+  for (dsl::NodeId id = 0; id < graph.size(); ++id) {
+    const dsl::Node& n = graph[id];
+    const auto at = [&](dsl::NodeId operand) {
+      return operand == dsl::no_node ? 0 : degrees[static_cast<std::size_t>(operand)];
+    };
+    const bool product = n.op == dsl::Op::mul || n.op == dsl::Op::fma;
+    const int factors = product ? at(n.a) + at(n.b) : std::max(at(n.a), at(n.b));
+    degrees.push_back(n.op == dsl::Op::input ? 1 : std::min(std::max(factors, at(n.c)), 1000));
+  }
+  return degrees.empty() ? 0 : *std::max_element(degrees.begin(), degrees.end());
+}
+
 class TestPrinter {
  public:
   TestPrinter(const dsl::Predicate& predicate, const TestOptions& options, int budget)
@@ -58,6 +73,7 @@ class TestPrinter {
   void print_arguments();
   std::string argument_list() const;
   std::string property_id(std::size_t index) const;
+  double least_definite(BoundMode mode) const;
   void print_codes(Precision precision);
   void print_checks(Precision precision);
 
@@ -137,19 +153,30 @@ void TestPrinter::print_range_adapter() {
   line("}");
 }
 
+/// A number as bound is of use only where the inputs fill their ranges, which generic inputs (in [-1, 1], none with an
+/// error) do if no range exceeds 1; and where few factors make a value, so that most values are not tiny.
+double TestPrinter::least_definite(BoundMode mode) const {
+  if (mode == BoundMode::none) return 0;
+  if (mode != BoundMode::fixed) return mode == BoundMode::tight ? definite_tight : definite_safe;
+  const bool filled = std::all_of(predicate_.parameters.begin(), predicate_.parameters.end(),
+                                  [](const dsl::Parameter& p) { return p.range.value_or(2) <= 1 && !p.bounded; });
+  return filled && degree(predicate_.graph) <= 4 ? definite_safe : 0;
+}
+
 void TestPrinter::print_codes(Precision precision) {
   const std::string real = codegen::name(precision);
   line(fmt::format("\nconst Code<{0}> {1}_codes_{0}[] = {{", real, name()));
   for (const BoundMode mode : options_.modes) {
     const bool bounds = mode != BoundMode::none;
-    const double definite = !bounds ? 0 : mode == BoundMode::tight ? definite_tight : definite_safe;
+    const double definite = least_definite(mode);
     const auto function = [&](std::string_view suffix) {
       return fmt::format("{}_{}<{}, {}>", name(), suffix, tag(mode), real);
     };
     line(
         fmt::format("    {{\"{} {}\", {}, {}, {},", codegen::name(mode), real, bounds, definite, function("evaluate")));
-    line(has_range_ ? fmt::format("     {}, {}}},", function("evaluate_in_range"), function("in_range"))
-                    : std::string("     nullptr, nullptr},"));
+    const std::string own_values = mode == BoundMode::interval ? ", true" : "";
+    line(has_range_ ? fmt::format("     {}, {}{}}},", function("evaluate_in_range"), function("in_range"), own_values)
+                    : fmt::format("     nullptr, nullptr{}}},", own_values));
   }
   line("};");
 }

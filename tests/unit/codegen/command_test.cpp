@@ -71,8 +71,13 @@ TEST(Command, CompileWritesOneHeaderForEveryBoundAndScalarType) {
   EXPECT_EQ(tightrope(folder, "compile orient2d.pred --bound all --real all --tests -o all").status, 0);
   EXPECT_EQ(files_in(folder.path() / "all"),
             (std::vector<std::string>{"CMakeLists.txt", "orient2d.float.double.h", "orient2d.float.float.h",
+                                      "orient2d.interval.double.h", "orient2d.interval.float.h",
                                       "orient2d.safe.double.h", "orient2d.safe.float.h", "orient2d.test.cpp",
                                       "orient2d.tight.double.h", "orient2d.tight.float.h"}));
+  // `all` has mode `static` where it applies.
+  folder.write("ranged.pred", "predicate ranged(scalar x, y) { range |x, y| <= 1 sign x - y as s }\n");
+  EXPECT_EQ(tightrope(folder, "compile ranged.pred --bound all -o all").status, 0);
+  EXPECT_TRUE(fs::exists(folder.path() / "all" / "ranged.static.double.h"));
 }
 
 TEST(Command, SameInputGivesTheSameBytesWhereverItLies) {
@@ -130,8 +135,8 @@ TEST(Command, BadUsageIsOneClearLineAndStatus2) {
   folder.write("orient2d.pred", orient2d);
   folder.write("file", "in the way\n");
   const BadUsage table[] = {
-      {"compile orient2d.pred --bound static -o out",
-       "tightrope: error: --bound: unknown value 'static' (accepted: float, safe, tight, all)"},
+      {"compile orient2d.pred --bound ball -o out",
+       "tightrope: error: --bound: unknown value 'ball' (accepted: float, safe, tight, static, interval, all)"},
       {"compile orient2d.pred --real half -o out",
        "tightrope: error: --real: unknown value 'half' (accepted: double, float, all)"},
       {"compile orient2d.pred --products fast -o out",
@@ -209,7 +214,7 @@ TEST(Command, ReportIsReadableByPeopleAndPrograms) {
   EXPECT_TRUE(has(text.output, "k = ")) << text.output;
   const Outcome json = tightrope(folder, "report orient2d.pred --bound all --real all --format json");
   const auto parsed = nlohmann::json::parse(json.output);
-  ASSERT_EQ(parsed.size(), 6U);
+  ASSERT_EQ(parsed.size(), 8U);
   EXPECT_EQ(parsed[0]["predicate"], "orient2d");
   EXPECT_EQ(parsed[0]["stages"][0]["outputs"][0]["name"], "side");
 }
