@@ -362,8 +362,9 @@ std::string print_header(std::span<const GeneratedPredicate> predicates, const H
     head += printer.summary();
     body += printer.print();
   }
-  return head + "#pragma once\n\n#include <tightrope/sign.h>\n\nnamespace tightrope::generated {\n" + body +
-         "\n}  // namespace tightrope::generated\n";
+  return head +
+         "#pragma once\n\n#include <tightrope/sign.h>\n\nTIGHTROPE_PRECISE_BEGIN\nnamespace tightrope::generated {\n" +
+         body + "\n}  // namespace tightrope::generated\nTIGHTROPE_PRECISE_END\n";
 }
 
 std::string header_name(const std::string& stem, BoundMode mode, Precision precision) {

@@ -12,6 +12,17 @@ using clang::dyn_cast;
 using dsl::NodeId;
 using dsl::Op;
 
+namespace {
+
+/// Whether the compiler may put another operation, or none, in the place of one with these options. (Contraction takes
+/// a product, and those are behind a barrier.)
+bool loose(clang::FPOptions options) {
+  return options.getAllowFPReassociate() || options.getAllowReciprocal() || options.getNoHonorNaNs() ||
+         options.getNoHonorInfs() || options.getNoSignedZero() || options.getAllowApproxFunc();
+}
+
+}  // namespace
+
 const clang::Expr* bare(const clang::Expr* expression) {
   for (;;) {
     expression = expression->IgnoreParens();
@@ -101,7 +112,8 @@ NodeId ExpressionReader::read(const clang::Expr* expression) {
       default:
         throw mismatch("an operator that graphs do not have");
     }
-    if (binary->hasStoredFPFeatures()) throw mismatch("floating-point options of its own");
+    if (loose(binary->getFPFeaturesInEffect(context_.getLangOpts())))
+      throw mismatch("an operation that may be changed");
     const NodeId a = read(binary->getLHS());
     return graph_.intern({.op = op, .a = a, .b = read(binary->getRHS())});
   }
@@ -158,7 +170,6 @@ NodeId ExpressionReader::read_call(const clang::CallExpr* call) {
   if (static_cast<int>(call->getNumArgs()) != dsl::operand_count(node.op)) {
     throw Mismatch{call->getBeginLoc(), "a call with another number of operands than the operation has"};
   }
-  if (call->hasStoredFPFeatures()) throw Mismatch{call->getBeginLoc(), "a call with floating-point options of its own"};
   dsl::NodeId* const operands[] = {&node.a, &node.b, &node.c};
   for (unsigned i = 0; i < call->getNumArgs(); ++i) *operands[i] = read(call->getArg(i));
   return graph_.intern(node);

@@ -2,6 +2,7 @@
 
 #include <clang/Basic/Diagnostic.h>
 #include <clang/Basic/SourceManager.h>
+#include <clang/Basic/Version.h>
 #include <clang/Frontend/ASTUnit.h>
 #include <clang/Tooling/Tooling.h>
 #include <fmt/format.h>
@@ -36,16 +37,14 @@ ParsedCode parse_generated(const std::string& code, const std::string& file_name
   // One target for all machines: the syntax tree must not depend on the host's. The macro __FMA__ lets headers made
   // with
   // --fma through; it changes no other text.
-  const std::vector<std::string> options = {"-std=c++20",
-                                            "-xc++",
-                                            "--target=x86_64-unknown-linux-gnu",
-                                            "-mfma",
-                                            "-ffreestanding",
-                                            "-nostdinc",
-                                            "-nostdinc++",
-                                            "-w",
-                                            fmt::format("-I{}", runtime_folder),
-                                            "-fbracket-depth=100000"};
+  std::vector<std::string> options = {"-std=c++20", "-xc++",       "--target=x86_64-unknown-linux-gnu",
+                                      "-mfma",      "-w",          "-ffreestanding",
+                                      "-nostdinc",  "-nostdinc++", fmt::format("-I{}", runtime_folder)};
+#if CLANG_VERSION_MAJOR < 15
+  // The loosest arithmetic that users' flags may ask for unnoticed: the syntax tree shows whether the code forbids it.
+  // Later versions let the runtime notice, and refuse.
+  options.insert(options.end(), {"-fassociative-math", "-freciprocal-math", "-fno-signed-zeros", "-fno-trapping-math"});
+#endif
   ErrorCollector errors;
   ParsedCode result;
   result.unit = clang::tooling::buildASTFromCodeWithArgs(

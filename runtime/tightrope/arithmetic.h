@@ -19,6 +19,18 @@
 #define TIGHTROPE_FUNCTION inline
 #endif
 
+// clang has no macro for -fassociative-math, -freciprocal-math and -funsafe-math-optimizations that could be refused
+// above. Between these two, also in generated code, it keeps to the operations as they are written, whatever the flags,
+// and after inlining, too.
+#if defined(__clang__)
+#define TIGHTROPE_PRECISE_BEGIN _Pragma("float_control(push)") _Pragma("float_control(precise, on)")
+#define TIGHTROPE_PRECISE_END _Pragma("float_control(pop)")
+#else
+#define TIGHTROPE_PRECISE_BEGIN
+#define TIGHTROPE_PRECISE_END
+#endif
+
+TIGHTROPE_PRECISE_BEGIN
 namespace tightrope {
 
 #if defined(__x86_64__) || defined(__i386__)
@@ -101,3 +113,4 @@ TIGHTROPE_FUNCTION constexpr Real max_magnitude(Real a, Real b) {
 }
 
 }  // namespace tightrope
+TIGHTROPE_PRECISE_END

@@ -3,6 +3,7 @@
 
 #include <tightrope/arithmetic.h>
 
+TIGHTROPE_PRECISE_BEGIN
 namespace tightrope {
 
 /// The sign of an exact quantity as far as floating point can tell.
@@ -48,3 +49,4 @@ struct staged {};    ///< the cheapest of these that settles the sign; always ex
 }  // namespace bound
 
 }  // namespace tightrope
+TIGHTROPE_PRECISE_END

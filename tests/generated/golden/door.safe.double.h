@@ -16,6 +16,7 @@
 
 #include <tightrope/sign.h>
 
+TIGHTROPE_PRECISE_BEGIN
 namespace tightrope::generated {
 
 // A point against a plane through a that swings about it; the second stage reuses the first one's normal.
@@ -367,3 +368,4 @@ struct door<bound::safe, double> {
 };
 
 }  // namespace tightrope::generated
+TIGHTROPE_PRECISE_END

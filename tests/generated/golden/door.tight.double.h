@@ -16,6 +16,7 @@
 
 #include <tightrope/sign.h>
 
+TIGHTROPE_PRECISE_BEGIN
 namespace tightrope::generated {
 
 // A point against a plane through a that swings about it; the second stage reuses the first one's normal.
@@ -592,3 +593,4 @@ struct door<bound::tight, double> {
 };
 
 }  // namespace tightrope::generated
+TIGHTROPE_PRECISE_END

@@ -134,6 +134,7 @@ TEST(Validate, CatchesEveryKindOfChange) {
       {"a macro", R"(#pragma once)", "#define v4 v5", "a preprocessor line"},
       {"a conditional", R"(#pragma once)", "#ifdef __clang__\n#endif", "a preprocessor line"},
       {"another header", R"(#pragma once)", "#include <cmath>", "a preprocessor line"},
+      {"no precise arithmetic", "TIGHTROPE_PRECISE_BEGIN", "", "an operation that may be changed"},
       {"no C++", R"(return result;)", "return", "not accepted by the compiler: line"},
   };
   for (const Change& change : table) {
