@@ -113,7 +113,7 @@ BoundedPredicate add_bounds(const dsl::Predicate& original, BoundMode mode, cons
       add_static_bounds(predicate, format, diagnostics, weakening, result);
       break;
     case BoundMode::interval:
-      add_interval_bounds(predicate, format, weakening, result);
+      add_interval_bounds(predicate, format, diagnostics, weakening, result);
       break;
     case BoundMode::exact:
     case BoundMode::staged:

@@ -24,8 +24,15 @@ struct Interval {
 
 class IntervalBounds {
  public:
-  IntervalBounds(const dsl::Predicate& predicate, const FloatFormat& format, Weakening weakening, Graph& graph)
-      : predicate_(predicate), format_(format), weakening_(weakening), graph_(graph), r_(graph, format) {
+  IntervalBounds(const dsl::Predicate& predicate, const FloatFormat& format, Weakening weakening,
+                 dsl::Diagnostics& diagnostics, Graph& graph)
+      : predicate_(predicate),
+        format_(format),
+        weakening_(weakening),
+        diagnostics_(diagnostics),
+        reporters_(outputs_of_nodes(predicate)),
+        graph_(graph),
+        r_(graph, format) {
     const double u = format.unit_roundoff * (weakened(Weakening::halve_unit_roundoff) ? 0.5 : 1);
     unit_ = graph_.constant(round_up(u * (1 + 4 * u), format));
     eta_ = graph_.constant(format.eta);
@@ -60,6 +67,8 @@ class IntervalBounds {
   const dsl::Predicate& predicate_;
   const FloatFormat& format_;
   Weakening weakening_;
+  dsl::Diagnostics& diagnostics_;
+  std::vector<const dsl::Output*> reporters_;
   Graph& graph_;
   BoundExpressions r_;
   std::vector<Interval> intervals_;
@@ -221,6 +230,7 @@ Interval IntervalBounds::rule(NodeId id, const Node& n) {
     case Op::max_magnitude:
       break;  // no operations of predicates
   }
+  report_unbounded(n, *reporters_[static_cast<std::size_t>(id)], BoundMode::interval, diagnostics_);
   return {id, id};
 }
 
@@ -252,10 +262,10 @@ void IntervalBounds::run(BoundedPredicate& result) {
 
 }  // namespace
 
-void add_interval_bounds(const dsl::Predicate& predicate, const FloatFormat& format, Weakening weakening,
-                         BoundedPredicate& result) {
+void add_interval_bounds(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics,
+                         Weakening weakening, BoundedPredicate& result) {
   result.graph = predicate.graph;
-  IntervalBounds(predicate, format, weakening, result.graph).run(result);
+  IntervalBounds(predicate, format, weakening, diagnostics, result.graph).run(result);
 }
 
 }  // namespace tightrope::codegen

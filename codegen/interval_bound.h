@@ -31,7 +31,7 @@
 namespace tightrope::codegen {
 
 /// As add_tight_bounds.
-void add_interval_bounds(const dsl::Predicate& predicate, const FloatFormat& format, Weakening weakening,
-                         BoundedPredicate& result);
+void add_interval_bounds(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics,
+                         Weakening weakening, BoundedPredicate& result);
 
 }  // namespace tightrope::codegen

@@ -181,6 +181,8 @@ Unrounded StaticBounds::rule(NodeId id, const Node& n) {
     case Op::max_magnitude:
       break;  // no operations of predicates
   }
+  report_unbounded(n, *reporters_[static_cast<std::size_t>(id)], BoundMode::fixed, diagnostics_);
+  complained_ = true;
   return {symmetric(infinity), infinity};
 }
 
