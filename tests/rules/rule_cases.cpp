@@ -112,15 +112,19 @@ std::vector<RuleCase> extrema() {
 }
 
 std::vector<RuleCase> quotients_roots_fma() {
-  const auto root = [](Graph& g, NodeId x) { return g.unary(Op::sqrt, x); };
+  const auto root_of = [](std::string name, Operand a) {
+    RuleCase rule = unary(std::move(name), a, [](Graph& g, NodeId x) { return g.unary(Op::sqrt, x); });
+    rule.lemma_factors = 2;
+    return rule;
+  };
   const auto fma = [](Graph& g, Operands x) { return g.fma(x[0], x[1], x[2]); };
   return {
       binary("a / b, exact", Op::div, exact, exact, 4),
       binary("a / b, bounded", Op::div, bounded, bounded, 4),
       binary("a / b, a bounded", Op::div, bounded, exact, 4),
       binary("a / b, b bounded", Op::div, exact, bounded, 4),
-      unary("sqrt(a), exact", exact, root),
-      unary("sqrt(a), bounded", bounded, root),
+      root_of("sqrt(a), exact", exact),
+      root_of("sqrt(a), bounded", bounded),
       composed("fma(a, b, c), exact", {exact, exact, exact}, fma, 4),
       composed("fma(a, b, c), bounded", {bounded, bounded, bounded}, fma, 4),
       composed("fma(a, b, c), b bounded", {exact, bounded, exact}, fma, 4),
@@ -162,15 +166,18 @@ std::vector<RuleCase> compositions() {
       composed(
           "sqrt(a a + b b), exact", {exact, exact},
           [square_sum](Graph& g, Operands x) { return g.unary(Op::sqrt, square_sum(g, x)); }, 5, true),
-      composed("sqrt(a - b), bounded a", {bounded, exact},
-               [](Graph& g, Operands x) { return g.unary(Op::sqrt, difference(g, x, 0)); }),
+      composed(
+          "sqrt(a - b), bounded a", {bounded, exact},
+          [](Graph& g, Operands x) { return g.unary(Op::sqrt, difference(g, x, 0)); }, 2),
       composed(
           "b sqrt(a), exact", {exact, exact}, [](Graph& g, Operands x) { return g.mul(x[1], g.unary(Op::sqrt, x[0])); },
           4),
-      composed("sqrt(a) - b, exact", {exact, exact},
-               [](Graph& g, Operands x) { return g.sub(g.unary(Op::sqrt, x[0]), x[1]); }),
-      composed("sqrt(|a - b|), exact", {exact, exact},
-               [](Graph& g, Operands x) { return g.unary(Op::sqrt, g.abs(difference(g, x, 0))); }),
+      composed(
+          "sqrt(a) - b, exact", {exact, exact},
+          [](Graph& g, Operands x) { return g.sub(g.unary(Op::sqrt, x[0]), x[1]); }, 2),
+      composed(
+          "sqrt(|a - b|), exact", {exact, exact},
+          [](Graph& g, Operands x) { return g.unary(Op::sqrt, g.abs(difference(g, x, 0))); }, 3),
   };
 }
 

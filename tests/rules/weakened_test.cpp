@@ -53,7 +53,7 @@ Found find(dsl::Op op, BoundMode mode, Weakening weakening) {
         check.mode = mode;
         check.form = form;
         check.weakening = weakening;
-        check.most_samples = 2e5;
+        check.most_samples = 1e6;
         look_for_violation<MiniFloat<4, 5>>(rule, check, found);
         look_for_violation<MiniFloat<4, 3>>(rule, check, found);
       }
