@@ -30,12 +30,12 @@ namespace tightrope::ccd {
 
 /// Coefficients of the projected quadratics, [axis][function][coefficient]. Functions: 3 (vertex-face) or 4
 /// (edge-edge), in each axis without opposite signs at a contact.
-template <std::size_t Functions>
-using Quadratics = std::array<std::array<std::array<Bounded<double>, 3>, Functions>, 3>;
+template <class Real, std::size_t Functions>
+using Quadratics = std::array<std::array<std::array<Bounded<Real>, 3>, Functions>, 3>;
 
 /// Puts one vector-valued quadratic of a generated predicate, [coefficient][axis], into its place.
-template <std::size_t Functions>
-void place(Quadratics<Functions>& z, std::size_t function, const Bounded<double> (&m)[3][3]) {
+template <class Real, std::size_t Functions>
+void place(Quadratics<Real, Functions>& z, std::size_t function, const Bounded<Real> (&m)[3][3]) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < 3; ++i) z[axis][function][i] = m[i][axis];
   }
@@ -45,8 +45,8 @@ void place(Quadratics<Functions>& z, std::size_t function, const Bounded<double>
 template <std::size_t Functions>
 using HullSigns = std::array<std::array<Sign, Functions>, 3>;
 
-template <class Signs, std::size_t Functions>
-HullSigns<Functions> hull_signs(const Quadratics<Functions>& z, Signs& signs) {
+template <class Signs, class Real, std::size_t Functions>
+HullSigns<Functions> hull_signs(const Quadratics<Real, Functions>& z, Signs& signs) {
   HullSigns<Functions> result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t f = 0; f < Functions; ++f) {
@@ -71,8 +71,8 @@ constexpr bool any_opposite(const std::array<Sign, N>& s) {
 
 /// The inside test at the possible roots of a piece: removes those at which in some axis two functions have opposite
 /// signs. True if none is left. `hulls`: signs that the functions are known to have on the whole piece.
-template <class Bound, class Signs, std::size_t Functions>
-bool reject_roots(Piece& piece, Quadratics<Functions>& z, const HullSigns<Functions>& hulls, Signs& signs) {
+template <class Bound, class Real, class Signs, std::size_t Functions>
+bool reject_roots(Piece<Real>& piece, Quadratics<Real, Functions>& z, const HullSigns<Functions>& hulls, Signs& signs) {
   for (std::size_t axis = 0; axis < 3 && piece.any(); ++axis) {
     if (any_opposite(hulls[axis])) return true;
     std::array<Sign, Functions> first = hulls[axis];
@@ -90,10 +90,10 @@ bool reject_roots(Piece& piece, Quadratics<Functions>& z, const HullSigns<Functi
 }
 
 /// One of the two parts of [0, 1] at an inflection: classification, then inside test. True if it holds no contact.
-template <class Bound, class Signs, std::size_t Functions>
-bool reject_part(const Bounded<double> (&k)[4], const Bounded<double> (&q)[3], Sign bend, Quadratics<Functions>& z,
+template <class Bound, class Real, class Signs, std::size_t Functions>
+bool reject_part(const Bounded<Real> (&k)[4], const Bounded<Real> (&q)[3], Sign bend, Quadratics<Real, Functions>& z,
                  Signs& signs) {
-  Piece piece;
+  Piece<Real> piece;
   const std::array<Sign, 4> k_signs = read_all(signs, k);
   const std::array<Sign, 3> q_signs = read_all(signs, q);
   std::copy_n(k, 4, piece.k.begin());
@@ -105,14 +105,15 @@ bool reject_part(const Bounded<double> (&k)[4], const Bounded<double> (&q)[3], S
 }
 
 /// The quadratics on the part of [0, 1] before (after) t / (s + t).
-template <class Bound, std::size_t Functions>
-std::pair<Quadratics<Functions>, Quadratics<Functions>> split(Quadratics<Functions>& z, const Bounded<double>& s,
-                                                              const Bounded<double>& t) {
-  std::pair<Quadratics<Functions>, Quadratics<Functions>> parts;
+template <class Bound, class Real, std::size_t Functions>
+std::pair<Quadratics<Real, Functions>, Quadratics<Real, Functions>> split(Quadratics<Real, Functions>& z,
+                                                                          const Bounded<Real>& s,
+                                                                          const Bounded<Real>& t) {
+  std::pair<Quadratics<Real, Functions>, Quadratics<Real, Functions>> parts;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t f = 0; f < Functions; ++f) {
       rescale(z[axis][f]);
-      const auto part = generated::split_quadratic<Bound, double>::evaluate_in_range(z[axis][f].data(), s, t);
+      const auto part = generated::split_quadratic<Bound, Real>::evaluate_in_range(z[axis][f].data(), s, t);
       std::copy_n(part.before, 3, parts.first[axis][f].begin());
       std::copy_n(part.after, 3, parts.second[axis][f].begin());
     }
@@ -122,31 +123,31 @@ std::pair<Quadratics<Functions>, Quadratics<Functions>> split(Quadratics<Functio
 
 /// Splits at the inflection, where Y'' = 0: Y' is exactly monotone on both sides of its exact parameter, and the two
 /// parts cover [0, 1] wherever that lies (MATH 3.1). True if neither part holds a contact.
-template <class Bound, class Signs, std::size_t Functions>
-bool reject_parts(const Piece& whole, const Bounded<double> (&c)[2], Sign fall, const std::array<Sign, 2>& bends,
-                  Quadratics<Functions>& z, Signs& signs) {
+template <class Bound, class Real, class Signs, std::size_t Functions>
+bool reject_parts(const Piece<Real>& whole, const Bounded<Real> (&c)[2], Sign fall, const std::array<Sign, 2>& bends,
+                  Quadratics<Real, Functions>& z, Signs& signs) {
   // The bend vanishes at c0 / (c0 - c1) = t / (s + t) with (s, t) = (-c1, c0) sg(c0 - c1), so that s + t > 0.
-  Bounded<double> weights[2] = {{-c[1].value, c[1].bound}, c[0]};
+  Bounded<Real> weights[2] = {{-c[1].value, c[1].bound}, c[0]};
   if (fall == Sign::negative) {
-    for (Bounded<double>& weight : weights) weight.value = -weight.value;
+    for (Bounded<Real>& weight : weights) weight.value = -weight.value;
   }
   if (!rescale(weights)) return false;
   const auto& [s, t] = weights;
-  const auto cubic = generated::split_cubic<Bound, double>::evaluate_in_range(whole.k.data(), whole.q.data(), s, t);
+  const auto cubic = generated::split_cubic<Bound, Real>::evaluate_in_range(whole.k.data(), whole.q.data(), s, t);
   auto parts = split<Bound>(z, s, t);
   return reject_part<Bound>(cubic.k_before, cubic.q_before, bends[0], parts.first, signs) &&
          reject_part<Bound>(cubic.k_after, cubic.q_after, bends[1], parts.second, signs);
 }
 
 /// The whole decision, given the coefficients k of the cubic and a function that computes the quadratics.
-template <class Bound, class Signs, class ComputeQuadratics>
-bool may_touch(const Bounded<double> (&k)[4], Signs& signs, const ComputeQuadratics& compute_quadratics) {
+template <class Bound, class Real, class Signs, class ComputeQuadratics>
+bool may_touch(const Bounded<Real> (&k)[4], Signs& signs, const ComputeQuadratics& compute_quadratics) {
   const std::array<Sign, 4> k_signs = read_all(signs, k);
   if (common(k_signs) != Sign::uncertain) return false;
-  Piece whole;
+  Piece<Real> whole;
   std::copy_n(k, 4, whole.k.begin());
   if (!rescale(whole.k)) return true;
-  const auto slopes = generated::differences<Bound, double>::evaluate_in_range(whole.k.data());
+  const auto slopes = generated::differences<Bound, Real>::evaluate_in_range(whole.k.data());
   const std::array<Sign, 3> q_signs = read_all(signs, slopes.q);
   const std::array<Sign, 2> bends = read_all(signs, slopes.c);
   std::copy_n(slopes.q, 3, whole.q.begin());
@@ -168,13 +169,13 @@ bool may_touch(const Bounded<double> (&k)[4], Signs& signs, const ComputeQuadrat
 }
 
 /// Vertex-face, MATH 2 on coordinates of moderate size. `scaled`: they come from `normalize`.
-template <class Bound, class Signs>
-bool vertex_face_may_touch(const double* points, bool scaled, Signs& signs) {
-  using predicate = generated::vertex_face<Bound, double>;
-  const MovingPoint p = moving_point(points, 0);
-  std::array<std::pair<double, MovingPoint>, 3> face;  // nearest vertex first
+template <class Bound, class Real, class Signs>
+bool vertex_face_may_touch(const Real* points, bool scaled, Signs& signs) {
+  using predicate = generated::vertex_face<Bound, Real>;
+  const MovingPoint<Real> p = moving_point(points, 0);
+  std::array<std::pair<Real, MovingPoint<Real>>, 3> face;  // nearest vertex first
   for (int i = 0; i < 3; ++i) {
-    const MovingPoint vertex = moving_point(points, i + 1);
+    const MovingPoint<Real> vertex = moving_point(points, i + 1);
     face[static_cast<std::size_t>(i)] = {distance_estimate(p, vertex), vertex};
   }
   const auto order = [&](std::size_t i, std::size_t j) {
@@ -183,29 +184,29 @@ bool vertex_face_may_touch(const double* points, bool scaled, Signs& signs) {
   order(0, 1);
   order(1, 2);
   order(0, 1);
-  const MovingPoint a = face[0].second, b = face[1].second, c = face[2].second;
+  const MovingPoint<Real> a = face[0].second, b = face[1].second, c = face[2].second;
   typename predicate::State state;
   auto coplanarity = predicate::coplanarity_in_range(p.t0, p.t1, a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, state);
-  if (scaled) widen(coplanarity.k);
+  if (scaled) widen(std::span<Bounded<Real>>(coplanarity.k));
   return may_touch<Bound>(coplanarity.k, signs, [&] {
     const auto inside = predicate::inside_in_range(p.t0, p.t1, a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, state);
-    Quadratics<3> z;
+    Quadratics<Real, 3> z;
     place(z, 0, inside.m_ab);
     place(z, 1, inside.m_bc);
     place(z, 2, inside.m_ca);
-    if (scaled) widen({&z[0][0][0], 27});
+    if (scaled) widen(std::span<Bounded<Real>>(&z[0][0][0], 27));
     return z;
   });
 }
 
 /// Edge-edge, likewise.
-template <class Bound, class Signs>
-bool edge_edge_may_touch(const double* points, bool scaled, Signs& signs) {
-  using predicate = generated::edge_edge<Bound, double>;
-  MovingPoint a = moving_point(points, 0), b = moving_point(points, 1);
-  MovingPoint c = moving_point(points, 2), d = moving_point(points, 3);
-  double ac = distance_estimate(a, c), ad = distance_estimate(a, d);
-  double bc = distance_estimate(b, c), bd = distance_estimate(b, d);
+template <class Bound, class Real, class Signs>
+bool edge_edge_may_touch(const Real* points, bool scaled, Signs& signs) {
+  using predicate = generated::edge_edge<Bound, Real>;
+  MovingPoint<Real> a = moving_point(points, 0), b = moving_point(points, 1);
+  MovingPoint<Real> c = moving_point(points, 2), d = moving_point(points, 3);
+  Real ac = distance_estimate(a, c), ad = distance_estimate(a, d);
+  Real bc = distance_estimate(b, c), bd = distance_estimate(b, d);
   if (std::min(bc, bd) < std::min(ac, ad)) {
     std::swap(a, b);
     std::swap(ac, bc);
@@ -216,26 +217,26 @@ bool edge_edge_may_touch(const double* points, bool scaled, Signs& signs) {
     std::swap(ac, ad);
     std::swap(bc, bd);
   }
-  const MovingPoint near_b = bd < bc ? d : c, near_d = bd < ad ? b : a;
+  const MovingPoint<Real> near_b = bd < bc ? d : c, near_d = bd < ad ? b : a;
   typename predicate::State state;
   auto coplanarity = predicate::coplanarity_in_range(a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, d.t0, d.t1, near_b.t0,
                                                      near_b.t1, near_d.t0, near_d.t1, state);
-  if (scaled) widen(coplanarity.k);
+  if (scaled) widen(std::span<Bounded<Real>>(coplanarity.k));
   return may_touch<Bound>(coplanarity.k, signs, [&] {
     const auto inside = predicate::inside_in_range(a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, d.t0, d.t1, near_b.t0, near_b.t1,
                                                    near_d.t0, near_d.t1, state);
-    Quadratics<4> z;
+    Quadratics<Real, 4> z;
     place(z, 0, inside.m_b);
     place(z, 1, inside.m_a);
     place(z, 2, inside.m_d);
     place(z, 3, inside.m_c);
-    if (scaled) widen({&z[0][0][0], 36});
+    if (scaled) widen(std::span<Bounded<Real>>(&z[0][0][0], 36));
     return z;
   });
 }
 
-template <class Bound, class Signs>
-bool may_touch(Kind kind, const double* points, bool scaled, Signs& signs) {
+template <class Bound, class Real, class Signs>
+bool may_touch(Kind kind, const Real* points, bool scaled, Signs& signs) {
   switch (kind) {
     case Kind::vertex_face:
       return vertex_face_may_touch<Bound>(points, scaled, signs);
@@ -257,19 +258,19 @@ struct FirstLook<bound::none> {
 };
 
 /// Are the four points never in one plane, by the signs of the cubic's coefficients (MATH 2.1, step 1)?
-template <class Bound, class Signs>
-bool never_coplanar(Kind kind, const double* points, Signs& signs) {
-  const MovingPoint a = moving_point(points, 0), b = moving_point(points, 1);
-  const MovingPoint c = moving_point(points, 2), d = moving_point(points, 3);
+template <class Bound, class Real, class Signs>
+bool never_coplanar(Kind kind, const Real* points, Signs& signs) {
+  const MovingPoint<Real> a = moving_point(points, 0), b = moving_point(points, 1);
+  const MovingPoint<Real> c = moving_point(points, 2), d = moving_point(points, 3);
   switch (kind) {
     case Kind::vertex_face: {
-      using predicate = generated::vertex_face<Bound, double>;
+      using predicate = generated::vertex_face<Bound, Real>;
       typename predicate::State state;
       const auto result = predicate::coplanarity_in_range(a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, d.t0, d.t1, state);
       return common(read_all(signs, result.k)) != Sign::uncertain;
     }
     case Kind::edge_edge: {
-      using predicate = generated::edge_edge<Bound, double>;
+      using predicate = generated::edge_edge<Bound, Real>;
       typename predicate::State state;
       const auto result = predicate::coplanarity_in_range(a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, d.t0, d.t1, c.t0, c.t1,
                                                           a.t0, a.t1, state);
@@ -281,8 +282,8 @@ bool never_coplanar(Kind kind, const double* points, Signs& signs) {
 
 /// Is one feature on one side of the other along a coordinate axis during the whole step (MATH 1.4 c)? Differences of
 /// points are linear in t, so the ends of the step decide, and the sign of a rounded difference is exact.
-template <class Signs>
-bool separated(Kind kind, const double* points, Signs& signs) {
+template <class Real, class Signs>
+bool separated(Kind kind, const Real* points, Signs& signs) {
   using Pair = std::array<int, 2>;  // points of different features
   static constexpr std::array<Pair, 3> vertex_face_pairs{{{0, 1}, {0, 2}, {0, 3}}};
   static constexpr std::array<Pair, 4> edge_edge_pairs{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
@@ -292,9 +293,9 @@ bool separated(Kind kind, const double* points, Signs& signs) {
     std::array<Sign, 8> sides;
     std::size_t count = 0;
     for (const auto& [i, j] : pairs) {
-      const MovingPoint x = moving_point(points, i), y = moving_point(points, j);
-      sides[count++] = signs(Bounded<double>{y.t0[axis] - x.t0[axis], 0});
-      sides[count++] = signs(Bounded<double>{y.t1[axis] - x.t1[axis], 0});
+      const MovingPoint<Real> x = moving_point(points, i), y = moving_point(points, j);
+      sides[count++] = signs(Bounded<Real>{y.t0[axis] - x.t0[axis], 0});
+      sides[count++] = signs(Bounded<Real>{y.t1[axis] - x.t1[axis], 0});
     }
     if (common(std::span<const Sign>(sides).first(count)) != Sign::uncertain) return true;
   }
@@ -303,20 +304,20 @@ bool separated(Kind kind, const double* points, Signs& signs) {
 
 /// Any query: `points` holds 24 numbers. Not finite: true. Contact needs coplanar points, no contradiction among the
 /// projected quadratics, and no separating axis (MATH 1.4); each is asked only where the ones before leave it open.
-template <class Bound, class Signs>
-bool collides(Kind kind, const double* points, Signs& signs) {
+template <class Bound, class Real, class Signs>
+bool collides(Kind kind, const Real* points, Signs& signs) {
   if (has_moderate_coordinates(points)) {
     if (never_coplanar<typename FirstLook<Bound>::type>(kind, points, signs)) return false;
-    if (spread(points) >= least_spread) {
+    if (spread(points) >= least_spread<Real>) {
       return may_touch<Bound>(kind, points, false, signs) && !separated(kind, points, signs);
     }
   }
-  const NormalizedQuery query = normalize(points);
+  const NormalizedQuery<Real> query = normalize(points);
   switch (query.kind) {
-    case NormalizedQuery::Kind::scaled:
+    case NormalizedQuery<Real>::Kind::scaled:
       return may_touch<Bound>(kind, query.points.data(), true, signs) && !separated(kind, points, signs);
-    case NormalizedQuery::Kind::not_finite:
-    case NormalizedQuery::Kind::coincident:
+    case NormalizedQuery<Real>::Kind::not_finite:
+    case NormalizedQuery<Real>::Kind::coincident:
       return true;
   }
   return true;

@@ -16,19 +16,22 @@ inline constexpr int points_per_query = 8;
 inline constexpr int numbers_per_query = 3 * points_per_query;
 
 /// A point that moves linearly from t0 to t1 (3 coordinates each) over the step.
+template <class Real>
 struct MovingPoint {
-  const double* t0;
-  const double* t1;
+  const Real* t0;
+  const Real* t1;
 };
 
 /// Point `index` of a query in the order of `Kind`.
-inline MovingPoint moving_point(const double* points, int index) {
+template <class Real>
+MovingPoint<Real> moving_point(const Real* points, int index) {
   return {points + 3 * index, points + 3 * (index + points_per_query / 2)};
 }
 
 /// Largest difference of two points' coordinates at the ends of the step: an estimate that chooses, never decides.
-inline double distance_estimate(MovingPoint x, MovingPoint y) {
-  double largest = 0;
+template <class Real>
+Real distance_estimate(MovingPoint<Real> x, MovingPoint<Real> y) {
+  Real largest = 0;
   for (int i = 0; i < 3; ++i) {
     largest = max_magnitude(largest, magnitude(x.t0[i] - y.t0[i]));
     largest = max_magnitude(largest, magnitude(x.t1[i] - y.t1[i]));
@@ -36,21 +39,23 @@ inline double distance_estimate(MovingPoint x, MovingPoint y) {
   return largest;
 }
 
-/// No coordinate exceeds 2^53 in magnitude (false for NaN): then the predicates apply as they are, provided that the
-/// points are not so close together that everything drowns in the floor of underflow.
-inline bool has_moderate_coordinates(const double* points) {
-  constexpr double limit = 0x1p53;
+/// No coordinate exceeds 2^53 (2^32) in magnitude (false for NaN): then the predicates apply as they are, provided that
+/// the points are not so close together that everything drowns in the floor of underflow.
+template <class Real>
+bool has_moderate_coordinates(const Real* points) {
+  constexpr Real limit = power_of_two<Real>(sizeof(Real) == 8 ? 53 : 32);
   bool moderate = true;
   for (int i = 0; i < numbers_per_query; ++i) moderate &= magnitude(points[i]) <= limit;
   return moderate;
 }
 
 /// Largest difference between two of the four points in one coordinate at one end of the step.
-inline double spread(const double* points) {
-  double largest = 0;
+template <class Real>
+Real spread(const Real* points) {
+  Real largest = 0;
   for (int end = 0; end < 2; ++end) {
     for (int axis = 0; axis < 3; ++axis) {
-      const double* x = points + 12 * end + axis;
+      const Real* x = points + 12 * end + axis;
       const auto [low, high] = std::minmax({x[0], x[3], x[6], x[9]});
       largest = std::max(largest, high - low);
     }
@@ -59,24 +64,28 @@ inline double spread(const double* points) {
 }
 
 /// Below this spread products of three differences could come near the floor of underflow: normalise first.
-inline constexpr double least_spread = 0x1p-100;
+template <class Real>
+inline constexpr Real least_spread = power_of_two<Real>(sizeof(Real) == 8 ? -100 : -20);
 
 /// A query scaled by a power of two so that its spread lies in [1/2, 1).
+template <class Real>
 struct NormalizedQuery {
-  std::array<double, numbers_per_query> points;
+  std::array<Real, numbers_per_query> points;
   enum class Kind { scaled, not_finite, coincident } kind;  ///< coincident: the four points are one all the time
 };
 
-/// Exact but for coordinates that fall below 2^-1022: those change by less than 2^-1074, and a product of three
-/// differences, none above 1, by less than 2^-1070 (see `widen`). Where all four points share a coordinate at one end
-/// of the step it becomes 0, an exact translation; a coordinate that differs somewhere is at most 2^54 times the
-/// spread. So no coordinate exceeds 2^54 afterwards.
-NormalizedQuery normalize(const double* points);
+/// Exact but for coordinates that fall below the normal numbers: those change by less than eta (the smallest number,
+/// 2^-1074 or 2^-149), and a polynomial in differences of coordinates, none above 1, by less than 2^8 eta (see
+/// `widen`). Where all four points share a coordinate at one end of the step it becomes 0, an exact translation; a
+/// coordinate that differs somewhere is at most 2^54 (2^25) times the spread. So none exceeds that afterwards.
+template <class Real>
+NormalizedQuery<Real> normalize(const Real* points);
 
 /// Adds what `normalize` may have lost to the bounds of polynomials in differences of its coordinates: where the bound
-/// is above 2^-1000 its relative growth of 2^-20 covers it, where it is below the absolute one.
-inline void widen(std::span<Bounded<double>> numbers) {
-  for (Bounded<double>& x : numbers) x.bound = tightrope::product(x.bound, 0x1.00001p0) + 0x1p-1000;
+/// is above 2^-1000 (2^-120) its relative growth of 2^-20 (2^-10) covers it, where it is below the absolute one.
+template <class Real>
+void widen(std::span<Bounded<Real>> numbers) {
+  for (Bounded<Real>& x : numbers) x.bound = tightrope::product(x.bound, inflation<Real>) + underflow_floor<Real>;
 }
 
 }  // namespace tightrope::ccd

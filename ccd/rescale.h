@@ -1,6 +1,6 @@
 #pragma once
 /// Exact rescaling by powers of two: keeps every stage's numbers near 1, so that polynomials of degree 24 neither
-/// overflow nor underflow and answers do not depend on the scene's units (MATH 3.3, 4.4).
+/// overflow nor underflow and answers do not depend on the scene's units (MATH 3.3, 4.4), in double and in float.
 
 #include <algorithm>
 #include <array>
@@ -9,41 +9,75 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "tightrope/sign.h"
 
 namespace tightrope::ccd {
 
-/// The power of two that takes x into [1/2, 1); 0 < x < 2^1022. A subnormal x is only taken below 1.
-inline double scale_to_one(double x) {
-  constexpr int mantissa_bits = 52;
-  constexpr std::uint64_t bias = 1023;
-  const std::uint64_t exponent = std::max<std::uint64_t>(std::bit_cast<std::uint64_t>(x) >> mantissa_bits, 1);
-  return std::bit_cast<double>((2 * bias - 1 - exponent) << mantissa_bits);
+/// 2^exponent; normal numbers only.
+template <class Real>
+constexpr Real power_of_two(int exponent) {
+  using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
+  return std::bit_cast<Real>(static_cast<Bits>(exponent + std::numeric_limits<Real>::max_exponent - 1)
+                             << (std::numeric_limits<Real>::digits - 1));
+}
+
+/// What a bound that comes in is multiplied with so that the rounding of bounds is covered (MATH 4.3, 4.7), as
+/// generated code does.
+template <class Real>
+inline constexpr Real inflation = 1 + power_of_two<Real>(sizeof(Real) == 8 ? -20 : -10);
+
+/// What the floor of underflow is taken to be after normalisation (MATH 4.4, 4.7).
+template <class Real>
+inline constexpr Real underflow_floor = power_of_two<Real>(sizeof(Real) == 8 ? -1000 : -120);
+
+/// Numbers from here on are not rescaled: 2^1022, 2^126.
+template <class Real>
+inline constexpr Real rescaling_limit = power_of_two<Real>(std::numeric_limits<Real>::max_exponent - 2);
+
+/// The power of two that takes x into [1/2, 1); 0 < x < rescaling_limit. A subnormal x is only taken below 1.
+template <class Real>
+Real scale_to_one(Real x) {
+  using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
+  constexpr int mantissa_bits = std::numeric_limits<Real>::digits - 1;
+  constexpr Bits bias = std::numeric_limits<Real>::max_exponent - 1;
+  const Bits exponent = std::max<Bits>(std::bit_cast<Bits>(x) >> mantissa_bits, 1);
+  return std::bit_cast<Real>((2 * bias - 1 - exponent) << mantissa_bits);
 }
 
 /// Scales the tuple by one power of two such that no value or bound exceeds 1, the largest being at least 1/2 if it can
-/// be. False if a number is not finite or as large as 2^1022 (the tuple is unchanged then and carries no sign).
+/// be. False if a number is not finite or as large as `rescaling_limit` (the tuple is unchanged then and carries no
+/// sign).
 ///
 /// The bound grows by the smallest normal number, which covers what scaling down loses to underflow: where the scaled
-/// bound is larger than 2^52 times that, the loss (less than 2^-1074) is covered by the inflation that a bounded input
-/// gets on entry (MATH 4.3).
-inline bool rescale(std::span<Bounded<double>> tuple) {
-  double largest = 0;
+/// bound is larger than 2^52 (2^23) times that, the loss (less than 2^-1074, 2^-149) is covered by the inflation that a
+/// bounded input gets on entry (MATH 4.3).
+template <class Real, std::size_t Extent>
+bool rescale(std::span<Bounded<Real>, Extent> tuple) {
+  Real largest = 0;
   bool finite = true;
-  for (const Bounded<double>& x : tuple) {
-    const double magnitude = std::max(tightrope::magnitude(x.value), x.bound);
+  for (const Bounded<Real>& x : tuple) {
+    const Real magnitude = std::max(tightrope::magnitude(x.value), x.bound);
     finite &= x.value - x.value == 0 && x.bound - x.bound == 0;
     largest = std::max(largest, magnitude);
   }
-  if (!finite || largest >= 0x1p1022) return false;
+  if (!finite || largest >= rescaling_limit<Real>) return false;
   if (largest == 0) return true;
-  const double factor = scale_to_one(largest);
-  for (Bounded<double>& x : tuple) {
+  const Real factor = scale_to_one(largest);
+  for (Bounded<Real>& x : tuple) {
     x.value *= factor;
-    x.bound = tightrope::product(x.bound, factor) + std::numeric_limits<double>::min();
+    x.bound = tightrope::product(x.bound, factor) + std::numeric_limits<Real>::min();
   }
   return true;
+}
+template <class Real, std::size_t N>
+bool rescale(std::array<Bounded<Real>, N>& tuple) {
+  return rescale(std::span(tuple));
+}
+template <class Real, std::size_t N>
+bool rescale(Bounded<Real> (&tuple)[N]) {
+  return rescale(std::span(tuple));
 }
 
 }  // namespace tightrope::ccd

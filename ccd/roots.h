@@ -11,6 +11,7 @@
 #include <cstddef>
 
 #include "ccd/rescale.h"
+#include "ccd/sign_reader.h"
 #include "ccd/tables.h"
 #include "tightrope/sign.h"
 
@@ -29,21 +30,18 @@ struct quadratic_at_roots;
 
 namespace tightrope::ccd {
 
-struct SignReader {
-  Sign operator()(const Bounded<double>& x) const { return sign(x); }
-};
-
-template <class Signs, std::size_t N>
-std::array<Sign, N> read_all(Signs& signs, const Bounded<double> (&numbers)[N]) {
+template <class Signs, class Real, std::size_t N>
+std::array<Sign, N> read_all(Signs& signs, const Bounded<Real> (&numbers)[N]) {
   std::array<Sign, N> result;
   for (std::size_t i = 0; i < N; ++i) result[i] = signs(numbers[i]);
   return result;
 }
 
 /// A piece of [0, 1] on which the course of the cubic is known. k and q may carry different positive factors.
+template <class Real>
 struct Piece {
-  std::array<Bounded<double>, 4> k;  ///< Bernstein coefficients, rescaled
-  std::array<Bounded<double>, 3> q;  ///< of the slope, rescaled
+  std::array<Bounded<Real>, 4> k;  ///< Bernstein coefficients, rescaled
+  std::array<Bounded<Real>, 3> q;  ///< of the slope, rescaled
   Course course = Course::unknown;
   Branches<bool> possible{false, true};  ///< branches on which there may be a root
   bool any() const { return possible.first || possible.second; }
@@ -51,8 +49,9 @@ struct Piece {
 
 /// Which roots are possible, from the signs alone; the piece's course is set. k, q: signs of the coefficients; bend: of
 /// Y'' on the piece; slope_is_monotone: Y' is known to be exactly monotone on the piece.
-inline void classify_piece(Piece& piece, const std::array<Sign, 4>& k, const std::array<Sign, 3>& q, Sign bend,
-                           bool slope_is_monotone) {
+template <class Real>
+void classify_piece(Piece<Real>& piece, const std::array<Sign, 4>& k, const std::array<Sign, 3>& q, Sign bend,
+                    bool slope_is_monotone) {
   if (common(k) != Sign::uncertain) {
     piece.possible = {false, false};
     return;
@@ -73,31 +72,31 @@ inline void classify_piece(Piece& piece, const std::array<Sign, 4>& k, const std
 }
 
 /// The signs of the linear function with coefficients l at the roots of the piece: table B.
-template <class Bound, class Signs>
-Branches<Sign> linear_signs(const Piece& piece, const Bounded<double> (&l)[2], Signs& signs) {
+template <class Bound, class Real, class Signs>
+Branches<Sign> linear_signs(const Piece<Real>& piece, const Bounded<Real> (&l)[2], Signs& signs) {
   const Branches<Sign> unknown{Sign::uncertain, Sign::uncertain};
   const Sign a = signs(l[0]);
   const Sign b = signs(l[1]);
   const Sign everywhere = common(a, b);
   if (everywhere != Sign::uncertain) return {everywhere, everywhere};
   if (piece.course == Course::unknown) return unknown;
-  Bounded<double> line[2] = {l[0], l[1]};
+  Bounded<Real> line[2] = {l[0], l[1]};
   if (!rescale(line)) return unknown;
-  const auto cubic = generated::cubic_at_root<Bound, double>::evaluate_in_range(piece.k.data(), line);
+  const auto cubic = generated::cubic_at_root<Bound, Real>::evaluate_in_range(piece.k.data(), line);
   const Sign fall = signs(cubic.fall);
   const Sign y = signs(cubic.y);
   if (fall == Sign::uncertain) return unknown;
   Sign g = Sign::uncertain;
   if (piece.course == Course::valley || piece.course == Course::hill) {
-    g = signs(generated::slope_at_root<Bound, double>::evaluate_in_range(piece.q.data(), line).g);
+    g = signs(generated::slope_at_root<Bound, Real>::evaluate_in_range(piece.q.data(), line).g);
   }
   return linear_at_roots(piece.course, a, b, fall, y, g);
 }
 
 /// The signs of the quadratic with coefficients j (rescaled) at the roots of the piece: table C.
-template <class Bound, class Signs>
-Branches<Sign> quadratic_signs(const Piece& piece, const std::array<Bounded<double>, 3>& j, Signs& signs) {
-  using predicate = generated::quadratic_at_roots<Bound, double>;
+template <class Bound, class Real, class Signs>
+Branches<Sign> quadratic_signs(const Piece<Real>& piece, const std::array<Bounded<Real>, 3>& j, Signs& signs) {
+  using predicate = generated::quadratic_at_roots<Bound, Real>;
   const Branches<Sign> unknown{Sign::uncertain, Sign::uncertain};
   if (piece.course == Course::unknown) return unknown;
   typename predicate::State state;
@@ -110,24 +109,25 @@ Branches<Sign> quadratic_signs(const Piece& piece, const std::array<Bounded<doub
 }
 
 /// A guess of the parameter in [0, 1] where the slope with Bernstein coefficients q vanishes; any value will do.
-double guess_extremum(const std::array<Bounded<double>, 3>& q);
+template <class Real>
+Real guess_extremum(const std::array<Bounded<Real>, 3>& q);
 
 /// Is the piece, a valley or hill with possible roots on both branches, without roots? Proved by the tangent at a guess
 /// of the extremum or by the Root-Finding Lemma; k, q: signs of the coefficients.
-template <class Bound, class Signs>
-bool misses_zero(const Piece& piece, const std::array<Sign, 4>& k, const std::array<Sign, 3>& q, Signs& signs) {
+template <class Bound, class Real, class Signs>
+bool misses_zero(const Piece<Real>& piece, const std::array<Sign, 4>& k, const std::array<Sign, 3>& q, Signs& signs) {
   // Without this both proofs have a hole: where q0 is uncertain a "valley" may be a rising concave curve, whose tangent
   // lies above it, and whose extremum lies outside the piece.
   if (!extremum_decides(piece.course, q[0], q[2], k[0], k[3])) return false;
   const Sign outside = piece.course == Course::valley ? Sign::positive : Sign::negative;
-  const auto tangent = generated::tangent<Bound, double>::evaluate_in_range(piece.k.data(), guess_extremum(piece.q));
+  const auto tangent = generated::tangent<Bound, Real>::evaluate_in_range(piece.k.data(), guess_extremum(piece.q));
   if (signs(outside == Sign::positive ? tangent.above : tangent.below) == outside) return true;
-  const auto lemma = generated::extremum<Bound, double>::evaluate_in_range(piece.k.data());
+  const auto lemma = generated::extremum<Bound, Real>::evaluate_in_range(piece.k.data());
   const Sign delta = signs(lemma.delta);
   const auto rest = read_all(signs, lemma.rest);
-  Bounded<double> line[2] = {lemma.rest[0], lemma.rest[1]};
+  Bounded<Real> line[2] = {lemma.rest[0], lemma.rest[1]};
   if (delta == Sign::uncertain || !rescale(line)) return false;
-  const auto slope = generated::slope_at_root<Bound, double>::evaluate_in_range(piece.q.data(), line);
+  const auto slope = generated::slope_at_root<Bound, Real>::evaluate_in_range(piece.q.data(), line);
   return sign_at_extremum(piece.course, delta, rest[0], rest[1], signs(slope.fall), signs(slope.g)) == outside;
 }
 

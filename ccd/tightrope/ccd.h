@@ -38,21 +38,30 @@ std::optional<Method> method_by_name(std::string_view name);
 std::string_view name(Method method);
 std::string_view name(Kind kind);  ///< "vertex-face", "edge-edge"
 
-/// Does the vertex touch the triangle? Units are the caller's; non-finite coordinates give true.
+/// Does the vertex touch the triangle? Units are the caller's; non-finite coordinates give true. In single precision
+/// the same question about the coordinates as they are given, decided in single precision.
 bool vertex_face(const Eigen::Vector3d& v_t0, const Eigen::Vector3d& f0_t0, const Eigen::Vector3d& f1_t0,
                  const Eigen::Vector3d& f2_t0, const Eigen::Vector3d& v_t1, const Eigen::Vector3d& f0_t1,
                  const Eigen::Vector3d& f1_t1, const Eigen::Vector3d& f2_t1, Method method = Method::tight);
+bool vertex_face(const Eigen::Vector3f& v_t0, const Eigen::Vector3f& f0_t0, const Eigen::Vector3f& f1_t0,
+                 const Eigen::Vector3f& f2_t0, const Eigen::Vector3f& v_t1, const Eigen::Vector3f& f0_t1,
+                 const Eigen::Vector3f& f1_t1, const Eigen::Vector3f& f2_t1, Method method = Method::tight);
 
 /// Do the edges touch?
 bool edge_edge(const Eigen::Vector3d& ea0_t0, const Eigen::Vector3d& ea1_t0, const Eigen::Vector3d& eb0_t0,
                const Eigen::Vector3d& eb1_t0, const Eigen::Vector3d& ea0_t1, const Eigen::Vector3d& ea1_t1,
                const Eigen::Vector3d& eb0_t1, const Eigen::Vector3d& eb1_t1, Method method = Method::tight);
+bool edge_edge(const Eigen::Vector3f& ea0_t0, const Eigen::Vector3f& ea1_t0, const Eigen::Vector3f& eb0_t0,
+               const Eigen::Vector3f& eb1_t0, const Eigen::Vector3f& ea0_t1, const Eigen::Vector3f& ea1_t1,
+               const Eigen::Vector3f& eb0_t1, const Eigen::Vector3f& eb1_t1, Method method = Method::tight);
 
 /// The same on plain memory: `points` holds 8 points of 3 coordinates in the order of `Kind`.
 bool collides(Kind kind, const double* points, Method method = Method::tight);
+bool collides(Kind kind, const float* points, Method method = Method::tight);
 
-/// `count` queries, `points` holding 24 * count doubles; `results` must hold `count` bytes and gets 0 or 1.
+/// `count` queries, `points` holding 24 * count numbers; `results` must hold `count` bytes and gets 0 or 1.
 void collides(Kind kind, const double* points, std::size_t count, unsigned char* results,
               Method method = Method::tight);
+void collides(Kind kind, const float* points, std::size_t count, unsigned char* results, Method method = Method::tight);
 
 }  // namespace tightrope::ccd

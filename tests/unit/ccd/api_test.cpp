@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "ccd/query.h"
 #include "contacts.h"
 #include "tightrope/ccd.h"
 
@@ -44,23 +45,43 @@ TEST(Api, EdgesCrossingAndPassing) {
   }
 }
 
+TEST(Api, SinglePrecisionAsDouble) {
+  const Eigen::Vector3f a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), d(-1, 0, 0);
+  for (const MethodInfo& info : methods()) {
+    EXPECT_TRUE(vertex_face({0.25F, 0.25F, 1}, a, b, c, {0.25F, 0.25F, -1}, a, b, c, info.method));
+    EXPECT_FALSE(vertex_face({0.75F, 0.75F, 1}, a, b, c, {0.75F, 0.75F, -1}, a, b, c, info.method));
+    EXPECT_TRUE(edge_edge(d, b, {0, -1, 1}, {0, 1, 1}, d, b, {0, -1, -1}, {0, 1, -2}, info.method));
+    EXPECT_FALSE(edge_edge(d, b, {2, -1, 1}, {2, 1, 1}, d, b, {2, -1, -1}, {2, 1, -2}, info.method));
+  }
+}
+
+template <class Real>
+void expect_batch_as_single_queries(Kind kind) {
+  test::ContactGenerator contacts(1);
+  std::vector<Real> points;
+  constexpr std::size_t count = 1000;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Query query = i % 2 == 0 ? contacts.contact(kind) : test::miss(kind, contacts.random());
+    for (const double x : query) points.push_back(static_cast<Real>(x));
+  }
+  for (const MethodInfo& info : methods()) {
+    std::vector<unsigned char> results(count + 1, 7);
+    collides(kind, points.data(), count, results.data(), info.method);
+    SignCounts signs;
+    for (std::size_t i = 0; i < count; ++i) {
+      ASSERT_EQ(results[i], collides(kind, points.data() + 24 * i, info.method) ? 1 : 0);
+      ASSERT_EQ(results[i], collides(kind, points.data() + 24 * i, info.method, signs) ? 1 : 0);
+    }
+    EXPECT_EQ(results[count], 7);
+    EXPECT_GT(signs.read, count);
+    EXPECT_LE(signs.uncertain, signs.read);
+  }
+}
+
 TEST(Api, BatchAnswersAsSingleQueries) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    test::ContactGenerator contacts(1);
-    std::vector<double> points;
-    constexpr std::size_t count = 1000;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Query query = i % 2 == 0 ? contacts.contact(kind) : test::miss(kind, contacts.random());
-      points.insert(points.end(), query.begin(), query.end());
-    }
-    for (const MethodInfo& info : methods()) {
-      std::vector<unsigned char> results(count + 1, 7);
-      collides(kind, points.data(), count, results.data(), info.method);
-      for (std::size_t i = 0; i < count; ++i) {
-        ASSERT_EQ(results[i], collides(kind, points.data() + 24 * i, info.method) ? 1 : 0);
-      }
-      EXPECT_EQ(results[count], 7);
-    }
+    expect_batch_as_single_queries<double>(kind);
+    expect_batch_as_single_queries<float>(kind);
   }
 }
 

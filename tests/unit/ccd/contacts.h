@@ -14,6 +14,17 @@ namespace tightrope::ccd::test {
 using Query = std::array<double, 24>;
 using Vector = std::array<double, 3>;
 
+/// The query in another precision; false if that changes a coordinate.
+template <class Real>
+bool represent(const Query& query, std::array<Real, 24>& points) {
+  bool exact = true;
+  for (std::size_t i = 0; i < query.size(); ++i) {
+    points[i] = static_cast<Real>(query[i]);
+    exact = exact && static_cast<double>(points[i]) == query[i];
+  }
+  return exact;
+}
+
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
