@@ -16,6 +16,11 @@ NodeId BoundExpressions::base(NodeId id) const {
   return id;
 }
 
+NodeId BoundExpressions::magnitude(NodeId id) {
+  const NodeId x = base(id);
+  return graph_[x].op == Op::sqrt ? x : graph_.abs(x);
+}
+
 double BoundExpressions::roundings(NodeId id) const {
   const auto found = roundings_.find(id);
   return found == roundings_.end() ? 0 : found->second;
@@ -29,6 +34,8 @@ NodeId BoundExpressions::noted(NodeId id, double roundings) {
 }
 
 NodeId BoundExpressions::constant(double value) { return graph_.constant(round_up(value, format_)); }
+
+NodeId BoundExpressions::least() { return graph_.constant(format_.eta); }
 
 NodeId BoundExpressions::plus(NodeId x, NodeId y) {
   if (x == no_node) return y;
@@ -57,11 +64,27 @@ NodeId BoundExpressions::quotient(NodeId x, NodeId y) {
   return noted(graph_.binary(Op::div, x, y), roundings(x) + roundings(y) + 1);
 }
 
+NodeId BoundExpressions::root_divisor(NodeId radicand, NodeId root, NodeId bound, bool unguarded) {
+  const NodeId least = constant(std::exp2(std::floor(std::log2(format_.eta) / 2)));
+  NodeId size = root;
+  NodeId margin = graph_.sub(radicand, bound);
+  if (unguarded) {
+    size = graph_.binary(Op::max, size, graph_.unary(Op::sqrt, bound));
+    margin = graph_.binary(Op::max, margin, graph_.constant(0));
+  }
+  size = graph_.binary(Op::max, size, least);
+  return graph_.add(size, graph_.binary(Op::div, margin, size));
+}
+
 NodeId BoundExpressions::power(NodeId x, int exponent) {
   if (exponent == 1) return x;
   const NodeId half = power(x, exponent / 2);
   const NodeId square = times(half, half);
   return exponent % 2 == 0 ? square : times(square, x);
+}
+
+double root_underflow(const FloatFormat& format) {
+  return std::sqrt(format.eta) < std::ldexp(1.0, format.min_exponent) ? 2 : 0;
 }
 
 std::vector<const dsl::Output*> outputs_of_nodes(const dsl::Predicate& predicate) {

@@ -59,6 +59,20 @@ const char* name(Weakening weakening) {
       return "halve_unit_roundoff";
     case Weakening::drop_product_of_errors:
       return "drop_product_of_errors";
+    case Weakening::drop_dividend_error:
+      return "drop_dividend_error";
+    case Weakening::drop_divisor_error:
+      return "drop_divisor_error";
+    case Weakening::drop_divisor_margin:
+      return "drop_divisor_margin";
+    case Weakening::drop_root_rounding:
+      return "drop_root_rounding";
+    case Weakening::drop_radicand_error:
+      return "drop_radicand_error";
+    case Weakening::drop_fma_rounding:
+      return "drop_fma_rounding";
+    case Weakening::drop_guards:
+      return "drop_guards";
   }
   return "";
 }

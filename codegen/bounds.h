@@ -65,6 +65,13 @@ enum class Weakening {
   drop_underflow,                ///< every underflow term
   halve_unit_roundoff,           ///< u / 2 in place of u
   drop_product_of_errors,        ///< R_a R_b
+  drop_dividend_error,           ///< R_a of a / b
+  drop_divisor_error,            ///< R_b of a / b, in the numerator
+  drop_divisor_margin,           ///< R_b of a / b, in the denominator
+  drop_root_rounding,            ///< u |sqrt(a)|
+  drop_radicand_error,           ///< R_a of sqrt(a)
+  drop_fma_rounding,             ///< u |a b + c|
+  drop_guards,                   ///< the tests of divisors and radicands
 };
 
 const char* name(Weakening weakening);  ///< as the enumerator; "" for a number that none of them has

@@ -91,6 +91,11 @@ int InputGroups::enter_difference(const Node& n, NodeId id) {
                one_axis ? std::string("d_") + axis_names[axis] : "d", {id, no_node}, range);
 }
 
+int InputGroups::enter_computed(const std::string& name, NodeId value, NodeId bound) {
+  const int index = static_cast<int>(predicate_.parameters.size()) + computed_++;
+  return enter(InputGroup::Kind::bounded, index, name + "_" + std::to_string(computed_), {value, bound}, INFINITY);
+}
+
 std::vector<std::string> InputGroups::names() const {
   std::vector<std::string> result;
   for (const InputGroup& g : groups_) result.push_back(g.name);
@@ -123,14 +128,15 @@ NodeId InputGroups::relative_bound(int group, BoundExpressions& r) {
   for (const GroupMember& member : g.members) {
     bound = bound == no_node ? member.bound : r.maximum(bound, member.bound);
   }
-  g.relative_bound = r.quotient(bound, maximum(group, r));
+  g.relative_bound = r.quotient(bound, r.larger(maximum(group, r), r.least()));
   return g.relative_bound;
 }
 
 NodeId InputGroups::overall_maximum(BoundExpressions& r) {
-  if (overall_maximum_ != no_node) return overall_maximum_;
-  overall_maximum_ = r.constant(1);
-  for (int g = 0; g < size(); ++g) overall_maximum_ = r.larger(overall_maximum_, maximum(g, r));
+  if (overall_maximum_ == no_node) overall_maximum_ = r.constant(1);
+  for (int& g = groups_in_overall_maximum_; g < size(); ++g) {
+    overall_maximum_ = r.larger(overall_maximum_, maximum(g, r));
+  }
   return overall_maximum_;
 }
 

@@ -16,7 +16,8 @@ struct GroupMember {
 
 struct InputGroup {
   enum class Kind { differences, vectors, scalar, bounded, all } kind = Kind::all;
-  int index = 0;     ///< differences, vectors: the axis (-1: not along one axis); scalar, bounded: the parameter
+  int index = 0;     ///< differences, vectors: the axis (-1: not along one axis); scalar, bounded: the parameter, or a
+                     ///< number beyond
   std::string name;  ///< for people: "d_x"
   std::vector<GroupMember> members;
   double range = 0;  ///< no exact member exceeds it, by the declared ranges; else infinity
@@ -38,11 +39,14 @@ class InputGroups {
   std::vector<std::string> names() const;
   std::vector<double> ranges() const;
 
+  /// Makes a bounded group of a computed value with a bound of its own (a quotient or a root); returns its number.
+  int enter_computed(const std::string& name, dsl::NodeId value, dsl::NodeId bound);
+
   /// max |member|, of a bounded group max(|value| + bound).
   dsl::NodeId maximum(int group, BoundExpressions& r);
-  /// rho = max(bound) / maximum; NaN if that is 0.
+  /// rho = max(bound) / maximum; 0 if that is 0.
   dsl::NodeId relative_bound(int group, BoundExpressions& r);
-  /// max(1, all maxima).
+  /// max(1, the maxima of all groups there are by now).
   dsl::NodeId overall_maximum(BoundExpressions& r);
 
  private:
@@ -61,6 +65,8 @@ class InputGroups {
   std::vector<InputGroup> groups_;
   std::vector<int> leaf_groups_;
   dsl::NodeId overall_maximum_ = dsl::no_node;
+  int groups_in_overall_maximum_ = 0;
+  int computed_ = 0;  ///< groups made by enter_computed
 };
 
 }  // namespace tightrope::codegen

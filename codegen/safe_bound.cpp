@@ -7,7 +7,9 @@
 #include "codegen/bound_expression.h"
 #include "codegen/input_groups.h"
 #include "codegen/magnitude_polynomial.h"
+#include "codegen/nonnegative.h"
 #include "codegen/precision.h"
+#include "codegen/quotient_bound.h"
 #include "codegen/raised_maxima.h"
 
 namespace tightrope::codegen {
@@ -49,6 +51,7 @@ class SafeBounds {
         graph_(graph),
         r_(graph, format),
         groups_(predicate, one_group, graph),
+        nonnegative_(nonnegative_nodes(predicate.graph)),
         unit_(format_.unit_roundoff * (weakening == Weakening::halve_unit_roundoff ? 0.5 : 1)) {}
 
   void run(BoundedPredicate& result);
@@ -60,8 +63,11 @@ class SafeBounds {
  private:
   Pair leaf(int group, bool rounded) const;
   Pair rule(NodeId id, const Node& n, const dsl::Output* reporter);
+  NodeId make_value(const Node& n);
   Pair sum(const Pair& a, const Pair& b) const;
   Pair product(const Pair& a, const Pair& b) const;
+  Pair fused(const Node& n) const;
+  Pair computed_leaf(NodeId id, const Node& n);
   Pair scaled(const Pair& a, double factor, bool may_underflow) const;
   static Pair merged(const Pair& a, const Pair& b);
 
@@ -71,9 +77,10 @@ class SafeBounds {
   NodeId raised_bound(const Pair& pair);
   NodeId bounded_input_bound(const Pair& pair, double& loss);
   NodeId underflow_bound(const Pair& pair, double loss);
-  NodeId output_bound(NodeId id, const Pair& pair);
-  NodeId with_guards(NodeId bound, NodeId id, const Pair& pair);
+  NodeId output_bound(NodeId id);
+  NodeId with_guards(NodeId bound, NodeId computed, const Pair& pair);
   double limit(const MagnitudePolynomial& B) const { return B.at(groups_.ranges()); }
+  NodeId value(NodeId id) const { return values_[static_cast<std::size_t>(id)]; }
   const Pair& pair(NodeId id) const { return pairs_[static_cast<std::size_t>(id)]; }
   bool weakened(Weakening w) const { return weakening_ == w; }
 
@@ -86,6 +93,8 @@ class SafeBounds {
   Graph& graph_;
   BoundExpressions r_;
   InputGroups groups_;
+  std::vector<bool> nonnegative_;
+  std::vector<NodeId> values_;  ///< by node of the predicate: the node of the bounded graph that computes it
   double unit_;
   std::vector<Pair> pairs_;
   bool too_many_monomials_ = false;
@@ -166,6 +175,32 @@ Pair SafeBounds::product(const Pair& a, const Pair& b) const {
   return p;
 }
 
+/// The product's rounding is the sum's: |f^ g^ + h^ - (f g + h)| <= (Bf Bg + Bh) (F - 1) before it.
+Pair SafeBounds::fused(const Node& n) const {
+  Pair unrounded = product(pair(n.a), pair(n.b));
+  unrounded.k = pair(n.a).k + pair(n.b).k;
+  Pair p = sum(unrounded, pair(n.c));
+  p.k = std::max(unrounded.k, pair(n.c).k) + (weakened(Weakening::drop_fma_rounding) ? 0 : 1);
+  return p;
+}
+
+/// A quotient or root by run-time operands: as an input that comes with a bound.
+Pair SafeBounds::computed_leaf(NodeId id, const Node& n) {
+  const auto bounded = [&](NodeId operand) {
+    return BoundedValue{value(operand), pair(operand).rounded ? output_bound(operand) : no_node};
+  };
+  const QuotientContext context{graph_, r_, format_, unit_, weakening_};
+  const bool is_root = n.op == Op::sqrt;
+  const BoundedValue made = is_root
+                                ? bounded_root(context, bounded(n.a), nonnegative_[static_cast<std::size_t>(n.a)])
+                                : bounded_quotient(context, bounded(n.a), bounded(n.b), r_.zero_if_finite(value(n.b)));
+  values_[static_cast<std::size_t>(id)] = made.value;
+  // The slack of R has paid for its roundings: it is a bound as it stands.
+  roundings_ = std::max(roundings_, r_.roundings(made.bound) + 12);
+  r_.settle(made.bound);
+  return leaf(groups_.enter_computed(is_root ? "root" : "quotient", made.value, made.bound), false);
+}
+
 Pair SafeBounds::scaled(const Pair& a, double factor, bool may_underflow) const {
   Pair p = a;
   p.B = a.B.scaled(factor);
@@ -205,20 +240,22 @@ Pair SafeBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
       p.B = MagnitudePolynomial::max(pair(n.a).B, pair(n.b).B);
       p.underflow = std::max(pair(n.a).underflow, pair(n.b).underflow);
       for (const NodeId operand : {n.a, n.b}) {
-        if (pair(operand).may_overflow) p.guards.push_back(operand);
+        if (pair(operand).may_overflow) p.guards.push_back(value(operand));
       }
       return p;
     }
     case Op::div:
-      if (graph_[n.b].op == Op::constant) {
-        Pair p = scaled(pair(n.a), div_up(1, std::abs(graph_[n.b].value)), true);
+      if (predicate_.graph[n.b].op == Op::constant) {
+        Pair p = scaled(pair(n.a), div_up(1, std::abs(predicate_.graph[n.b].value)), true);
         if (!weakened(Weakening::drop_division_rounding)) ++p.k;
         p.rounded = true;
         return p;
       }
-      [[fallthrough]];
+      return computed_leaf(id, n);
     case Op::sqrt:
+      return computed_leaf(id, n);
     case Op::fma:
+      return fused(n);
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
     case Op::max_magnitude:
@@ -309,7 +346,7 @@ NodeId SafeBounds::bounded_input_bound(const Pair& p, double& loss) {
   for (const auto& [group, degree] : p.bounded_degrees) {
     if (degree == 0) continue;
     const NodeId rho = groups_.relative_bound(group, r_);
-    x = r_.plus(x, r_.times(rho, r_.constant(degree)));
+    x = r_.plus(x, r_.times_constant(rho, degree));
     const NodeId factor = r_.power(r_.plus(rho, r_.constant(1)), degree);
     spread = spread == no_node ? factor : r_.times(spread, factor);
   }
@@ -336,8 +373,9 @@ NodeId SafeBounds::underflow_bound(const Pair& p, double loss) {
   return degree <= 0 ? c : r_.times(c, r_.power(groups_.overall_maximum(r_), degree));
 }
 
-NodeId SafeBounds::output_bound(NodeId id, const Pair& p) {
-  if (!p.rounded) return r_.zero_if_finite(id);
+NodeId SafeBounds::output_bound(NodeId id) {
+  const Pair& p = pair(id);
+  if (!p.rounded) return r_.zero_if_finite(value(id));
   NodeId bound = p.bounded_degrees.empty() ? raised_bound(p) : no_node;
   if (bound == no_node) {
     double loss = 0;
@@ -346,23 +384,30 @@ NodeId SafeBounds::output_bound(NodeId id, const Pair& p) {
   }
   // The slack pays for the roundings in the bound, for 1 + 2u on every difference in B, and for (1 + u)^k in F.
   if (bound != no_node) roundings_ = std::max(roundings_, r_.roundings(bound) + 2 * p.B.degree() + p.k);
-  return with_guards(bound, id, p);
+  return with_guards(bound, value(id), p);
 }
 
 /// Where a value may overflow, its B times k u may still be finite, and an infinity minus a large number has the wrong
 /// sign as easily as the right one. x - x is 0 for a finite x, else NaN: an infinite value, or one that came from an
 /// infinite operand of max or min, gets no sign.
-NodeId SafeBounds::with_guards(NodeId bound, NodeId id, const Pair& p) {
+NodeId SafeBounds::with_guards(NodeId bound, NodeId computed, const Pair& p) {
   const auto guard = [&](NodeId x) { bound = r_.plus(bound, r_.zero_if_finite(x)); };
-  if (p.may_overflow || bound == no_node) guard(id);
+  if (p.may_overflow || bound == no_node) guard(computed);
   for (const NodeId g : p.guards) guard(g);
   return bound;
+}
+
+/// The node that computes `n`; another where an operand stands behind a guard (and see computed_leaf).
+NodeId SafeBounds::make_value(const Node& n) {
+  const auto at = [&](NodeId id) { return id == no_node ? no_node : value(id); };
+  return graph_.intern({n.op, at(n.a), at(n.b), at(n.c), n.index, n.value});
 }
 
 void SafeBounds::run(BoundedPredicate& result) {
   const NodeId count = predicate_.graph.size();
   const auto reporters = outputs_of_nodes(predicate_);
   for (NodeId id = 0; id < count && !too_many_monomials_; ++id) {
+    values_.push_back(make_value(predicate_.graph[id]));
     pairs_.push_back(rule(id, predicate_.graph[id], reporters[static_cast<std::size_t>(id)]));
     Pair& p = pairs_.back();
     // 2^d is the most that F of the bounded groups can be.
@@ -378,7 +423,7 @@ void SafeBounds::run(BoundedPredicate& result) {
       OutputBound& entry = bounded.outputs.emplace_back();
       const Pair* widest = nullptr;
       for (const NodeId id : output.nodes) {
-        entry.elements.push_back({id, output_bound(id, pair(id))});
+        entry.elements.push_back({value(id), output_bound(id)});
         if (!widest || pair(id).k > widest->k) widest = &pair(id);
       }
       entry.roundings = widest->k;

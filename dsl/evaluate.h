@@ -14,17 +14,21 @@ namespace tightrope::dsl {
 /// The value of one node, given one value per input slot and, by `at(id)`, the values of its operands.
 ///
 /// `Number` needs + - * / and unary minus, construction from double, and found by argument-dependent lookup (or built
-/// in for floating point) abs(x), sqrt(x), min(x, y), max(x, y), mul_pow2(x, int), fma(x, y, z). On exact
-/// numbers, which have no NaN, the guards (Op::certain_nonzero ..) let everything pass.
+/// in for floating point) abs(x), sqrt(x), mul_pow2(x, int), fma(x, y, z), and either < and == or min(x, y) and
+/// max(x, y). On exact numbers, which have no NaN, the guards (Op::certain_nonzero ..) let everything pass.
 template <class Number, class Operands>
 Number evaluate_node(const Node& n, std::span<const Number> slots, const Operands& at) {
   using std::abs;
   using std::fma;
   using std::sqrt;
   const auto less_or = [](const Number& x, const Number& y, bool want_less) -> Number {  // NaN if either operand is NaN
-    if (x < y) return want_less ? x : y;
-    if (y < x || x == y) return want_less ? y : x;
-    return x + y;
+    if constexpr (requires { x < y; }) {
+      if (x < y) return want_less ? x : y;
+      if (y < x || x == y) return want_less ? y : x;
+      return x + y;
+    } else {
+      return want_less ? min(x, y) : max(x, y);
+    }
   };
   const auto guarded = [](const Number& x, const Number& bound, bool strictly) -> Number {
     if constexpr (std::numeric_limits<Number>::has_quiet_NaN) {
@@ -68,7 +72,11 @@ Number evaluate_node(const Node& n, std::span<const Number> slots, const Operand
     case Op::certain_nonnegative:
       return guarded(at(n.a), at(n.b), false);
     case Op::max_magnitude:
-      return at(n.b) > at(n.a) ? at(n.b) : at(n.a);
+      if constexpr (requires { at(n.a) < at(n.b); }) {
+        return at(n.a) < at(n.b) ? at(n.b) : at(n.a);
+      } else {
+        return less_or(at(n.a), at(n.b), false);
+      }
     case Op::fma:
       break;
   }
