@@ -9,7 +9,7 @@
 //     Y[3]: degree 2 in t, k = 7, B = 2 d_z v_x v_y + 2 d_y v_x v_z + 2 d_x v_y v_z
 //   shifted
 //     operations for values 48 (22 sums, 22 products, 2 divisions, 2 exact)
-//     operations for bounds 59 (24 sums, 26 products, 1 division, 7 comparisons, 1 exact)
+//     operations for bounds 59 (24 sums, 25 products, 1 division, 8 comparisons, 1 exact)
 //     Z[4]: degree 3 in t, k = 10, B = 6 v_x v_y v_z k + 2 d_z v_x v_y + 2 d_y v_x v_z + 2 d_x v_y v_z
 //     diff_dot_n_p_a[2]: degree 1 in t, k = 8, B = 8 d_z v_x v_y + 8 d_y v_x v_z + 8 d_x v_y v_z
 #pragma once
@@ -255,10 +255,10 @@ struct door<bound::safe, double> {
     const double v119 = product(v31, v118);
     const double v120 = product(0x1.00001p+1, v119);
     const double v121 = v117 + v120;
-    const double v122 = k.bound / v107;
-    const double v123 = product(v122, 0x1p+0);
+    const double v122 = max_magnitude(v107, 0x0.0000000000001p-1022);
+    const double v123 = k.bound / v122;
     const double v124 = 0x1.c000000000001p-51 + v123;
-    const double v125 = v122 + 0x1p+0;
+    const double v125 = v123 + 0x1p+0;
     const double v126 = product(v124, v125);
     const double v127 = product(v121, v126);
     const double v128 = max_magnitude(0x1p+0, v36);
