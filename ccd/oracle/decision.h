@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "ccd/oracle/contact_time.h"
 #include "ccd/oracle/oracle.h"
 
 namespace tightrope::ccd::oracle {
@@ -22,5 +23,8 @@ enum class Defect {
 /// As first_contact() and contact(), in oracle.h, but for the defect.
 std::optional<Contact> first_contact(Kind kind, std::span<const double, 24> points, Defect defect);
 bool contact(Kind kind, std::span<const double, 24> points, Defect defect);
+/// As the function in contact_time.h.
+std::optional<TimeInterval> first_contact(Kind kind, std::span<const double, 24> points, const mpq_class& width,
+                                          Defect defect);
 
 }  // namespace tightrope::ccd::oracle

@@ -74,6 +74,18 @@ Form quotient(Form a, const Form& b) {
   return result;
 }
 
+/// The sign at (x, y), both not negative and not both zero.
+int sign_at_ratio(const Form& form, const mpz_class& x, const mpz_class& y) {
+  const int n = form.degree();
+  mpz_class value = form[n], power = 1;
+  for (int j = n - 1; j >= 0; --j) {
+    power *= x;
+    value *= y;
+    mpz_addmul(value.get_mpz_t(), form[j].get_mpz_t(), power.get_mpz_t());
+  }
+  return sgn(value);
+}
+
 }  // namespace
 
 Form::Form(const Form& other) : degree_(other.degree_) {  // an unused coefficient stays without memory
@@ -127,15 +139,26 @@ void subtract_product(Form& difference, const Form& a, const Form& b) {
 }
 
 int sign_at(const Form& form, const DyadicTime& time) {
+  return sign_at_ratio(form, (mpz_class(1) << time.exponent) - time.numerator, time.numerator);
+}
+
+int sign_at_rational(const Form& form, const mpq_class& time) {
+  return sign_at_ratio(form, time.get_den() - time.get_num(), time.get_num());
+}
+
+mpz_class leading_coefficient(const Form& form) {
+  // (1-t)^(n-j) t^j adds (-1)^(k-j) C(n-j, k-j) to the coefficient of t^k.
   const int n = form.degree();
-  const mpz_class x = (mpz_class(1) << time.exponent) - time.numerator;
-  mpz_class value = form[n], power = 1;
-  for (int j = n - 1; j >= 0; --j) {
-    power *= x;
-    value *= time.numerator;
-    mpz_addmul(value.get_mpz_t(), form[j].get_mpz_t(), power.get_mpz_t());
+  for (int k = n; k >= 0; --k) {
+    mpz_class sum, binomial;
+    for (int j = 0; j <= k; ++j) {
+      mpz_bin_uiui(binomial.get_mpz_t(), static_cast<unsigned long>(n - j), static_cast<unsigned long>(k - j));
+      sum += ((k - j) % 2 == 0 ? form[j] : mpz_class(-form[j])) * binomial;
+    }
+    if (sgn(sum) != 0) return sum;
   }
-  return sgn(value);
+  assert(false && "the form is not zero");
+  return 0;
 }
 
 int hull_sign(const Form& form) {

@@ -49,6 +49,9 @@ void subtract_product(Form& difference, const Form& a, const Form& b);
 
 /// The sign of the form at `time`, which must lie in [0, 1].
 int sign_at(const Form& form, const DyadicTime& time);
+int sign_at_rational(const Form& form, const mpq_class& time);
+/// The leading coefficient of the form as an ordinary polynomial in t; not for zero.
+mpz_class leading_coefficient(const Form& form);
 /// The common strict sign of all coefficients, hence of all values on [0, 1]; 0 if there is none.
 int hull_sign(const Form& form);
 /// Sign changes in the coefficients, zeros skipped: by Descartes' rule the number of roots in the open (0, 1), counted

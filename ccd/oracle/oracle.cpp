@@ -173,6 +173,21 @@ bool contact(Kind kind, std::span<const double, 24> points, Defect defect) {
   return !contact_times(kind, points, defect, false).empty();
 }
 
+std::optional<TimeInterval> first_contact(Kind kind, std::span<const double, 24> points, const mpq_class& width,
+                                          Defect defect) {
+  std::vector<Root> times = contact_times(kind, points, defect, true);
+  if (times.empty()) return std::nullopt;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i].compare(times[first]) < 0) first = i;
+  }
+  return times[first].interval(width);
+}
+
+std::optional<TimeInterval> first_contact(Kind kind, std::span<const double, 24> points, const mpq_class& width) {
+  return first_contact(kind, points, width, Defect::none);
+}
+
 std::optional<Contact> first_contact(Kind kind, std::span<const double, 24> points) {
   return first_contact(kind, points, Defect::none);
 }

@@ -13,6 +13,19 @@ DyadicTime child(const DyadicTime& lower, bool right) {
   return {2 * lower.numerator + (right ? 1 : 0), lower.exponent + 1};
 }
 
+mpq_class rational_of(const DyadicTime& time) {
+  mpq_class r(time.numerator, mpz_class(1) << time.exponent);
+  r.canonicalize();
+  return r;
+}
+
+/// A double in [0, 1].
+DyadicTime dyadic(double time) {
+  int exponent = 0;
+  const double fraction = std::frexp(time, &exponent);  // time = fraction * 2^53 * 2^(exponent - 53)
+  return {mpz_class(std::ldexp(fraction, 53)), static_cast<unsigned long>(53 - exponent)};  // time <= 1: positive
+}
+
 /// Whether the positive root of f, its only one, is a root of g too. Both without roots at 0 and 1 in f: their common
 /// divisor has at most that root there, a simple one, so it vanishes there if and only if its ends differ in sign.
 bool share_the_root(const Form& f, const Form& g) {
@@ -85,28 +98,64 @@ int Root::sign(const Form& form) {
   }
 }
 
-int Root::compare(double time) const {
-  int exponent = 0;
-  const double fraction = std::frexp(time, &exponent);  // time = fraction * 2^53 * 2^(exponent - 53)
-  DyadicTime t{mpz_class(std::ldexp(fraction, 53)), static_cast<unsigned long>(53 - exponent)};  // time <= 1: positive
+int Root::compare(DyadicTime time) const {
   // On one scale: both as numerators over 2^(both exponents).
-  t.numerator <<= lower_.exponent;
-  t.numerator -= lower_.numerator << t.exponent;  // (time - lower) * 2^lower.exponent = numerator / 2^exponent
-  if (exact_) return -sgn(t.numerator);
-  if (sgn(t.numerator) <= 0) return 1;
-  if (t.numerator >= mpz_class(1) << t.exponent) return -1;
-  return sign_at(form_, t) * sgn(form_[0]);
+  time.numerator <<= lower_.exponent;
+  time.numerator -= lower_.numerator << time.exponent;  // (time - lower) * 2^lower.exponent = numerator / 2^exponent
+  if (exact_) return -sgn(time.numerator);
+  if (sgn(time.numerator) <= 0) return 1;
+  if (time.numerator >= mpz_class(1) << time.exponent) return -1;
+  return sign_at(form_, time) * sgn(form_[0]);
+}
+
+int Root::compare(Root& other) {
+  bool known_different = false;
+  while (true) {
+    if (exact_) return -other.compare(lower_);
+    if (other.exact_) return compare(other.lower_);
+    // Open intervals of one dyadic grid: once they are equally wide they are equal or disjoint.
+    if (lower_.exponent != other.lower_.exponent) {
+      (lower_.exponent < other.lower_.exponent ? *this : other).halve();
+      continue;
+    }
+    if (const int order = cmp(lower_.numerator, other.lower_.numerator); order != 0) return order < 0 ? -1 : 1;
+    if (!known_different && share_the_root(form_, other.form_)) return 0;
+    known_different = true;
+    halve();
+  }
+}
+
+/// Over its interval's own parameter t' the form has integer coefficients, so that the denominator of a rational root
+/// divides the leading one, a: a t' is an integer. The interval is narrowed until it leaves one integer to try.
+std::optional<mpq_class> Root::rational() {
+  if (exact_) return rational_of(lower_);
+  const mpz_class a = abs(leading_coefficient(form_)) << lower_.exponent;  // a times a rational root: an integer
+  while (!exact_ && a >= mpz_class(1) << lower_.exponent) halve();
+  if (exact_) return rational_of(lower_);
+  const mpz_class integer = ((lower_.numerator * a) >> lower_.exponent) + 1;  // the ends of the interval are no roots
+  mpq_class time(integer, a);
+  time.canonicalize();
+  const mpq_class own = time * (mpz_class(1) << lower_.exponent) - lower_.numerator;
+  if (own >= 1 || sign_at_rational(form_, own) != 0) return std::nullopt;
+  return time;
+}
+
+TimeInterval Root::interval(const mpq_class& width) {
+  assert(width > 0);
+  if (const auto time = rational()) return {*time, *time};
+  while (mpq_class(1, mpz_class(1) << lower_.exponent) > width) halve();  // irrational: never exact
+  return {rational_of(lower_), rational_of({lower_.numerator + 1, lower_.exponent})};
 }
 
 Contact Root::enclosure() const {
   // Doubles in [0, 1] are ordered as their bit patterns are: bisection over those also reaches times near 0 quickly.
   const auto as_double = [](std::uint64_t pattern) { return std::bit_cast<double>(pattern); };
   std::uint64_t below = 0, above = std::bit_cast<std::uint64_t>(1.0);
-  if (compare(0.0) == 0) return {0.0, 0.0};
-  if (compare(1.0) == 0) return {1.0, 1.0};
+  if (compare(dyadic(0.0)) == 0) return {0.0, 0.0};
+  if (compare(dyadic(1.0)) == 0) return {1.0, 1.0};
   while (above - below > 1) {  // as_double(below) < this time < as_double(above)
     const std::uint64_t middle = below + (above - below) / 2;
-    const int order = compare(as_double(middle));
+    const int order = compare(dyadic(as_double(middle)));
     if (order == 0) return {as_double(middle), as_double(middle)};
     (order > 0 ? below : above) = middle;
   }

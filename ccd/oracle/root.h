@@ -1,8 +1,11 @@
 #pragma once
-/// Times in [0, 1] that are roots of forms, exactly: isolation, signs of other forms there, enclosure by doubles.
+/// Times in [0, 1] that are roots of forms, exactly: isolation, signs of other forms there, order, enclosure by doubles
+/// and by rationals.
 
+#include <optional>
 #include <vector>
 
+#include "ccd/oracle/contact_time.h"
 #include "ccd/oracle/form.h"
 #include "ccd/oracle/oracle.h"
 
@@ -23,11 +26,17 @@ class Root {
   int sign_at_first_sight(const Form& form) const;
   /// Largest double <= this time and smallest double >= it.
   Contact enclosure() const;
+  /// The sign of (this time - other), 0 exactly where they are the same number.
+  int compare(Root& other);
+  /// This time, if it is rational.
+  std::optional<mpq_class> rational();
+  /// Ends at most `width` > 0 apart with this time strictly between; or twice this time, if it is rational.
+  TimeInterval interval(const mpq_class& width);
 
  private:
   Root(DyadicTime lower, Form form, bool exact) : lower_(std::move(lower)), form_(std::move(form)), exact_(exact) {}
-  bool halve();                    ///< one bisection; whether the root lies in the right half (or is its lower end)
-  int compare(double time) const;  ///< sign of (this time - time), time in [0, 1]
+  bool halve();                        ///< one bisection; whether the root lies in the right half (or is its lower end)
+  int compare(DyadicTime time) const;  ///< sign of (this time - time), time in [0, 1]
 
   DyadicTime lower_;
   Form form_;  // over the interval's own parameter; opposite strict signs at its ends
