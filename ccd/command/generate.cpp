@@ -81,8 +81,21 @@ int run(const GenerateOptions& options) {
 
 std::string scene_list() {
   std::string text = "Scenes:\n";
-  for (const SceneInfo& info : scenes()) text += fmt::format("  {:<16}{}\n", info.name, info.what);
+  for (const SceneInfo& info : scenes()) text += fmt::format("  {:<21}{}\n", info.name, info.what);
   return text + "A seed gives the same queries on every machine.";
+}
+
+constexpr std::string_view survey_group = "degenerate-families";
+
+/// The names for scripts, one a line; no scene is generated then.
+void list_scenes(const std::string& group) {
+  std::string text;
+  for (const SceneInfo& info : scenes()) {
+    const bool chosen = group == survey_group ? info.survey && info.name != survey_group : true;
+    if (chosen) text += fmt::format("{}\n", info.name);
+  }
+  if (print(text) != success) throw CLI::RuntimeError(bad_usage);
+  throw CLI::Success();
 }
 
 }  // namespace
@@ -101,6 +114,12 @@ Subcommand add_generate(CLI::App& app) {
       ->required()
       ->type_name("FILE.h5|DIR");
   add_kind(*command, options->kind, "only this kind");
+  command
+      ->add_option_function<std::string>("--list", list_scenes,
+                                         "only list the names of the scenes: all, or degenerate-families (the survey)")
+      ->check(CLI::IsMember(std::vector<std::string>{"all", std::string(survey_group)}))
+      ->type_name("GROUP")
+      ->trigger_on_parse();
   command->footer(scene_list());
   return {command, [options] { return run(*options); }};
 }

@@ -6,11 +6,12 @@
 
 #include "scenes/cloth_fold.h"
 #include "scenes/families.h"
+#include "scenes/survey.h"
 
 namespace tightrope::ccd {
 namespace {
 
-constexpr std::array<SceneInfo, 14> all_scenes = {{
+constexpr std::array<SceneInfo, 29> all_scenes = {{
     {Scene::random, "random", "coordinates uniform in [-1, 1]"},
     {Scene::grazing, "grazing", "a vertex or an edge passes within 1e-16 .. 1e-3 of an edge, a vertex or an end"},
     {Scene::cloth_fold, "cloth-fold", "two folding sheets, pairs that survive a broad phase"},
@@ -25,6 +26,23 @@ constexpr std::array<SceneInfo, 14> all_scenes = {{
     {Scene::huge, "huge", "the mixture at scales 2^20 .. 2^1000"},
     {Scene::far, "far", "the mixture at distances of 1e2 .. 1e12 from the origin"},
     {Scene::single, "single", "the mixture rounded to float32 values"},
+    {Scene::coplanar, "coplanar", "motion in one plane, past a corner: touching it, or not by a margin", true},
+    {Scene::sliding, "sliding", "a vertex or an end slides along the line of an edge, up to its end or beside it",
+     true},
+    {Scene::through_vertex, "through-vertex", "a vertex or an end passes through another one, or beside it", true},
+    {Scene::through_edge, "through-edge", "a vertex or an end passes through an edge in a plane, or beside it", true},
+    {Scene::parallel_edges, "parallel-edges",
+     "parallel edges meet at an end, overlap or miss; a vertex at a side's end", true},
+    {Scene::zero_area, "zero-area", "flat faces, needles; edges on one line or almost parallel", true},
+    {Scene::zero_length, "zero-length", "edges and sides of length zero, for the whole step or at t = 0", true},
+    {Scene::double_root, "double-root", "coplanar twice at one time, or almost", true},
+    {Scene::triple_root, "triple-root", "coplanar three times at one time, touching at a side or end, or not", true},
+    {Scene::step_ends, "step-ends", "contact at t = 0 or at t = 1 exactly, or short of it", true},
+    {Scene::rotation, "rotation", "a feature turns by 60 .. 180 degrees, the coplanarity has an inflection", true},
+    {Scene::at_rest, "at-rest", "nothing moves; touching, or not by a margin", true},
+    {Scene::displacements, "displacements", "points that move by 1e-300 .. 1e150 past features of size 1", true},
+    {Scene::offsets, "offsets", "the families above at 1e2 .. 1e8 lengths from the origin", true},
+    {Scene::degenerate_families, "degenerate-families", "a mixture of coplanar .. offsets", true},
 }};
 
 Query static_lattice_query(Random& random) {
@@ -91,6 +109,22 @@ Query make_query(Scene scene, Kind kind, Random& random) {
       return far_query(kind, random);
     case Scene::single:
       return single_query(kind, random);
+    case Scene::coplanar:
+    case Scene::sliding:
+    case Scene::through_vertex:
+    case Scene::through_edge:
+    case Scene::parallel_edges:
+    case Scene::zero_area:
+    case Scene::zero_length:
+    case Scene::double_root:
+    case Scene::triple_root:
+    case Scene::step_ends:
+    case Scene::rotation:
+    case Scene::at_rest:
+    case Scene::displacements:
+    case Scene::offsets:
+    case Scene::degenerate_families:
+      return construct(scene, kind, random).query;
   }
   return {};
 }

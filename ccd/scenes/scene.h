@@ -27,12 +27,28 @@ enum class Scene {
   huge,
   far,
   single,
+  coplanar,
+  sliding,
+  through_vertex,
+  through_edge,
+  parallel_edges,
+  zero_area,
+  zero_length,
+  double_root,
+  triple_root,
+  step_ends,
+  rotation,
+  at_rest,
+  displacements,
+  offsets,
+  degenerate_families,
 };
 
 struct SceneInfo {
   Scene scene;
   std::string_view name;  ///< as the commands spell it
   std::string_view what;
+  bool survey = false;  ///< of the survey of degenerate families (survey.h)
 };
 
 /// Every scene, in the order of the tables.

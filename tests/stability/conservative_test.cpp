@@ -1,5 +1,5 @@
 /// No false negative of a conservative method on any scene. TIGHTROPE_STABILITY_QUERIES sets the number of queries a
-/// kind.
+/// kind, TIGHTROPE_SURVEY_QUERIES that of the survey's scenes.
 
 #include <gtest/gtest.h>
 
@@ -17,16 +17,20 @@
 namespace tightrope::ccd {
 namespace {
 
-std::size_t number_of_queries() {
-  const char* text = std::getenv("TIGHTROPE_STABILITY_QUERIES");
-  return text == nullptr ? 20000 : std::strtoull(text, nullptr, 10);
+/// Of each kind.
+std::size_t number_of_queries(Scene scene) {
+  const auto info =
+      std::find_if(scenes().begin(), scenes().end(), [&](const SceneInfo& s) { return s.scene == scene; });
+  const char* text = std::getenv(info->survey ? "TIGHTROPE_SURVEY_QUERIES" : "TIGHTROPE_STABILITY_QUERIES");
+  if (text != nullptr) return std::strtoull(text, nullptr, 10);
+  return info->survey ? 4000 : 20000;
 }
 
 class Conservative : public testing::TestWithParam<std::tuple<Scene, Kind>> {};
 
 TEST_P(Conservative, NoFalseNegative) {
   const auto [scene, kind] = GetParam();
-  const std::size_t total = number_of_queries();
+  const std::size_t total = number_of_queries(scene);
   ASSERT_GT(total, 0U);
   constexpr std::uint64_t seed = 20240607;
   const auto generator = generate(scene, kind, total, seed);
@@ -69,7 +73,8 @@ TEST_P(Conservative, NoFalseNegative) {
 TEST(ConservativeTest, WouldCatchAMethodWithoutErrorBounds) {
   constexpr std::size_t count = 3000;
   for (const Scene scene : {Scene::grazing, Scene::degenerate, Scene::tangent, Scene::needles, Scene::tiny, Scene::huge,
-                            Scene::far, Scene::single}) {
+                            Scene::far, Scene::single, Scene::through_vertex, Scene::through_edge, Scene::rotation,
+                            Scene::displacements, Scene::offsets}) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       std::vector<double> points(24 * count);
       std::vector<unsigned char> truths(count);

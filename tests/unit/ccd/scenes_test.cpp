@@ -111,6 +111,21 @@ TEST(Scenes, ASeedGivesTheSameQueriesOnEveryMachine) {
       {Scene::huge, 0x411cbeaf883a3a2f, 0x57abd6f379dd01e5},
       {Scene::far, 0xf56d0899be162d3d, 0x8ae694089a59b144},
       {Scene::single, 0x2d2beafd87809326, 0x007c912cc49272b9},
+      {Scene::coplanar, 0x86be157eff4a779a, 0xe356ea9898dc1545},
+      {Scene::sliding, 0x5ed7786234dd09d6, 0xca1fd146ce1faa2b},
+      {Scene::through_vertex, 0x8d8fcc586b3b96d8, 0x631db762b8a670b6},
+      {Scene::through_edge, 0xfab0c683884e75f1, 0x66083b51986c5a5b},
+      {Scene::parallel_edges, 0xe625281d4d23ca11, 0x7d7fb0a6dbcb987f},
+      {Scene::zero_area, 0x19f83f0720d71a80, 0xb9b6c6dadd53676e},
+      {Scene::zero_length, 0xc432514a2125b7ab, 0xf324063debf2dcdb},
+      {Scene::double_root, 0x113c5ebf1c3c13bf, 0x923a6003eb4bc3c9},
+      {Scene::triple_root, 0xf5708dc0f274ce29, 0xf247b6e833f38c44},
+      {Scene::step_ends, 0x9598c38f4bb387d4, 0x64bff36975cbb966},
+      {Scene::rotation, 0xf986e78b2a346b48, 0xb58d6c6e433d480c},
+      {Scene::at_rest, 0x385c968b36a759d6, 0x612e43b1c43d7809},
+      {Scene::displacements, 0xb83d5480f55f1c01, 0x69042699365b40b3},
+      {Scene::offsets, 0xdd2a19299856a247, 0x2ffbdd4b0c3eb68d},
+      {Scene::degenerate_families, 0x500b5cec2fe3917a, 0x08126d1df8329f5b},
   };
   for (const Expected& e : expected) {
     EXPECT_EQ(fingerprint(queries(e.scene, Kind::vertex_face, 200, 42)), e.vertex_face) << name(e.scene);
