@@ -123,7 +123,8 @@ std::vector<RuleCase> quotients_roots_fma() {
       binary("a / b, bounded", Op::div, bounded, bounded, 4),
       binary("a / b, a bounded", Op::div, bounded, exact, 4),
       binary("a / b, b bounded", Op::div, exact, bounded, 4),
-      unary("1 / a, bounded", bounded, [](Graph& g, NodeId x) { return g.binary(Op::div, g.constant(1), x); }),
+      composed(
+          "1 / a, bounded", {bounded}, [](Graph& g, Operands x) { return g.binary(Op::div, g.constant(1), x[0]); }, 4),
       root_of("sqrt(a), exact", exact),
       root_of("sqrt(a), bounded", bounded),
       composed("fma(a, b, c), exact", {exact, exact, exact}, fma, 4),
