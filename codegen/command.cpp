@@ -8,7 +8,9 @@
 #include <functional>
 #include <sstream>
 
+#include "codegen/certify.h"
 #include "codegen/compile.h"
+#include "codegen/gappa.h"
 #include "codegen/print_tests.h"
 #include "codegen/report.h"
 
@@ -82,6 +84,9 @@ struct Arguments {
   std::string directory = ".";
   std::string depfile;
   std::string format = "text";
+  std::string gappa = "gappa";
+  double time_limit = 60;
+  double assumed_range = 1;
   bool tests = false;
   bool measure = false;
 };
@@ -181,6 +186,42 @@ int run_report(const Arguments& arguments) {
   return done;
 }
 
+int run_certify(const Arguments& arguments) {
+  CompileRequest request;
+  if (const std::string error = interpret(arguments, request); !error.empty()) return usage_error(error);
+  CertifyRequest certificates{request.modes,
+                              request.precisions,
+                              arguments.assumed_range,
+                              arguments.directory,
+                              find_program(arguments.gappa),
+                              arguments.time_limit};
+  for (const BoundMode mode : certificates.modes) {
+    if (mode != BoundMode::fixed && mode != BoundMode::safe) {
+      return usage_error(
+          fmt::format("--bound: '{}' has no bound that Gappa could prove (accepted: static, safe)", name(mode)));
+    }
+  }
+  if (!(arguments.assumed_range > 0) || !(arguments.time_limit > 0)) {
+    return usage_error("--assume-range and --time-limit take positive numbers");
+  }
+  if (certificates.gappa.empty() && arguments.gappa != "gappa") {
+    return usage_error(fmt::format("--gappa: cannot run {}", arguments.gappa));
+  }
+  dsl::SourceMap sources;
+  dsl::Diagnostics diagnostics;
+  const dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
+  if (diagnostics.has_errors()) return program_error(diagnostics, sources);
+  std::vector<Certificate> results;
+  const std::string error = certify(program, certificates, diagnostics, results);
+  if (diagnostics.has_errors()) return program_error(diagnostics, sources);
+  if (!error.empty()) return usage_error(error);
+  std::fputs(text(results).c_str(), stdout);
+  if (certificates.gappa.empty()) {
+    fmt::print(stderr, "tightrope: gappa is not installed: the scripts are written, nothing is proved\n");
+  }
+  return unproved(results) ? bad_program : done;
+}
+
 void add_file_option(CLI::App& command, Arguments& arguments, bool several) {
   CLI::Option* option = command.add_option("FILE", arguments.files, "the predicates (.pred)")->required();
   if (!several) option->expected(1);
@@ -224,6 +265,22 @@ int run_command(int argc, const char* const* argv) {
   report.add_option("--format", arguments.format, "text or json")->capture_default_str();
   report.add_flag("--measure", arguments.measure, "also compare the bounds with true errors on random inputs");
   report.callback([&] { run = run_report; });
+
+  CLI::App& certify =
+      *app.add_subcommand("certify", "Write Gappa scripts that claim the bounds, and run Gappa on them");
+  add_file_option(certify, arguments, false);
+  add_program_options(certify, arguments);
+  certify.get_option("--bound")->description("static, safe, or static,safe")->default_str("static,safe");
+  certify.add_option("-o", arguments.directory, "folder for the scripts and for what Gappa prints")
+      ->capture_default_str();
+  certify.add_option("--gappa", arguments.gappa, "the program to run")->capture_default_str();
+  certify.add_option("--time-limit", arguments.time_limit, "seconds a script")->capture_default_str();
+  certify.add_option("--assume-range", arguments.assumed_range, "range of the inputs that declare none")
+      ->capture_default_str();
+  certify.callback([&] {
+    if (certify.count("--bound") == 0) arguments.bound = "static,safe";
+    run = run_certify;
+  });
 
   try {
     app.parse(argc, argv);

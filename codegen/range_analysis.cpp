@@ -76,8 +76,8 @@ Support Support::multiplied(const Support& other) const {
   return result;
 }
 
-RangeAnalysis::RangeAnalysis(const dsl::Graph& graph, std::vector<double> limits)
-    : graph_(graph), limits_(std::move(limits)), budget_(operation_budget) {
+RangeAnalysis::RangeAnalysis(const dsl::Graph& graph, std::vector<double> limits, bool vertices)
+    : graph_(graph), limits_(std::move(limits)), budget_(vertices ? operation_budget : 0) {
   extend();
 }
 

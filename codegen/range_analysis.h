@@ -55,8 +55,9 @@ struct WeightedNode {
 /// vertices are tried. Their arithmetic is exact or comes with a bound of its error (NearNumber).
 class RangeAnalysis {
  public:
-  /// |input slot i| <= limits[i]. The graph may grow; `extend` takes in what is new.
-  RangeAnalysis(const dsl::Graph& graph, std::vector<double> limits);
+  /// |input slot i| <= limits[i]. The graph may grow; `extend` takes in what is new. Without `vertices`, interval
+  /// arithmetic only.
+  RangeAnalysis(const dsl::Graph& graph, std::vector<double> limits, bool vertices = true);
   void extend();
 
   const Range& of(dsl::NodeId id) const { return ranges_[static_cast<std::size_t>(id)]; }

@@ -36,13 +36,14 @@ struct Unrounded {
 class StaticBounds {
  public:
   StaticBounds(const dsl::Predicate& predicate, const FloatFormat& format, Weakening weakening,
-               dsl::Diagnostics& diagnostics)
+               dsl::Diagnostics& diagnostics, StaticLemmas lemmas)
       : predicate_(predicate),
         format_(format),
         weakening_(weakening),
         diagnostics_(diagnostics),
+        lemmas_(lemmas == StaticLemmas::all),
         graph_(predicate.graph),
-        ranges_(graph_, exact_limits()),
+        ranges_(graph_, exact_limits(), lemmas_),
         reporters_(outputs_of_nodes(predicate)) {}
 
   void run(BoundedPredicate& result);
@@ -67,6 +68,7 @@ class StaticBounds {
   const FloatFormat& format_;
   Weakening weakening_;
   dsl::Diagnostics& diagnostics_;
+  bool lemmas_;
   Graph graph_;  ///< the predicate's, and the derivatives of its outputs
   RangeAnalysis ranges_;
   std::vector<const dsl::Output*> reporters_;
@@ -239,7 +241,7 @@ void StaticBounds::run(BoundedPredicate& result) {
     for (const auto& output : stage.outputs) {
       OutputBound& entry = bounded.outputs.emplace_back();
       for (const NodeId id : output.nodes) {
-        const double bound = round_up(std::min(at(id).error, sums.bound(id)), format_);
+        const double bound = round_up(lemmas_ ? std::min(at(id).error, sums.bound(id)) : at(id).error, format_);
         entry.elements.push_back({id, result.graph.constant(bound)});
         entry.constant = std::max(entry.constant, bound);
       }
@@ -251,7 +253,7 @@ void StaticBounds::run(BoundedPredicate& result) {
 }  // namespace
 
 void add_static_bounds(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics,
-                       Weakening weakening, BoundedPredicate& result) {
+                       Weakening weakening, BoundedPredicate& result, StaticLemmas lemmas) {
   for (const dsl::Parameter& p : predicate.parameters) {
     if (p.range) continue;
     diagnostics.error(
@@ -260,7 +262,7 @@ void add_static_bounds(const dsl::Predicate& predicate, const FloatFormat& forma
         "declare one: range |" + p.name + "| <= 1");
     return;
   }
-  StaticBounds(predicate, format, weakening, diagnostics).run(result);
+  StaticBounds(predicate, format, weakening, diagnostics, lemmas).run(result);
 }
 
 }  // namespace tightrope::codegen

@@ -37,9 +37,13 @@
 
 namespace tightrope::codegen {
 
+/// Which bounds of outputs are taken: the smaller one, or the one that the rules give without lemmas S and V (as other
+/// programs can follow it).
+enum class StaticLemmas { all, none };
+
 /// As add_tight_bounds. Errors: an input without a range, a divisor or radicand that the ranges do not keep away from
 /// 0 or from negative numbers, a value that may overflow.
 void add_static_bounds(const dsl::Predicate& predicate, const FloatFormat& format, dsl::Diagnostics& diagnostics,
-                       Weakening weakening, BoundedPredicate& result);
+                       Weakening weakening, BoundedPredicate& result, StaticLemmas lemmas = StaticLemmas::all);
 
 }  // namespace tightrope::codegen
