@@ -14,21 +14,6 @@ using dsl::Node;
 using dsl::NodeId;
 using dsl::Op;
 
-/// "x_a_t0_1" for slot expression "a_t0[1]": no other name of a script starts with x.
-std::string input_name(const std::string& slot) {
-  std::string name = "x_";
-  for (const char c : slot) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (plain) {
-      name += c;
-    } else if (name.back() != '_') {
-      name += '_';
-    }
-  }
-  while (name.back() == '_') name.pop_back();
-  return name;
-}
-
 std::string number(double value) {
   const std::string text = literal(std::abs(value), Precision::binary64);
   return value < 0 ? "(-" + text + ")" : text;
@@ -36,44 +21,103 @@ std::string number(double value) {
 
 class ScriptPrinter {
  public:
-  ScriptPrinter(const dsl::Predicate& predicate, const Graph& graph)
-      : predicate_(predicate), graph_(graph), slots_(slot_expressions(predicate)) {}
+  ScriptPrinter(const dsl::Predicate& predicate, const Graph& graph, Precision precision)
+      : predicate_(predicate), graph_(graph), precision_(precision), slots_(slot_expressions(predicate)) {}
 
-  std::optional<std::string> print(const Claim& claim, Precision precision);
+  std::optional<std::string> print(const Claim& claim);
 
  private:
   void line(const std::string& text) { (out_ += text) += '\n'; }
   void define_input(NodeId id, const Node& n);
   bool define(NodeId id, const Node& n);
+  bool define_scaling(NodeId id, const Node& n);
+  bool define_absolute(NodeId id, const Node& n);
   /// Operand as computed or exact; inputs and constants are spelled where they are used.
   std::string operand(NodeId id, char kind) const;
+  std::string own(NodeId id) const { return std::to_string(numbers_[static_cast<std::size_t>(id)]); }
+  std::vector<NodeId> cone(NodeId root);
 
   const dsl::Predicate& predicate_;
   const Graph& graph_;
+  Precision precision_;
   std::vector<std::string> slots_;
+  std::vector<int> numbers_;  ///< by node, in the script
   std::vector<std::string> hypotheses_;
+  std::string hints_;  ///< rewriting rules: identities that Gappa checks but does not find
   std::string out_;
 };
 
 std::string ScriptPrinter::operand(NodeId id, char kind) const {
   const Node& n = graph_[id];
   if (n.op == Op::constant) return number(n.value);
-  return fmt::format("{}{}", kind, id);
+  return fmt::format("{}{}", kind, numbers_[static_cast<std::size_t>(id)]);
+}
+
+/// The nodes that `root` needs, operands first, numbered as a walk from the root meets them: outputs that differ in
+/// their inputs alone get the same script.
+std::vector<NodeId> ScriptPrinter::cone(NodeId root) {
+  numbers_.assign(static_cast<std::size_t>(graph_.size()), -1);
+  std::vector<NodeId> order;
+  std::vector<std::pair<NodeId, bool>> open = {{root, false}};
+  while (!open.empty()) {
+    const auto [id, operands_done] = open.back();
+    open.pop_back();
+    int& number = numbers_[static_cast<std::size_t>(id)];
+    if (number >= 0) continue;
+    if (operands_done) {
+      number = static_cast<int>(order.size());
+      order.push_back(id);
+      continue;
+    }
+    open.emplace_back(id, true);
+    const Node& n = graph_[id];
+    const bool guard = n.op == Op::certain_nonzero || n.op == Op::certain_nonnegative;
+    for (const NodeId operand : {n.c, guard ? dsl::no_node : n.b, n.a}) {
+      if (operand != dsl::no_node) open.emplace_back(operand, false);
+    }
+  }
+  return order;
 }
 
 void ScriptPrinter::define_input(NodeId id, const Node& n) {
   const dsl::Slot& slot = predicate_.slots[static_cast<std::size_t>(n.index)];
   const dsl::Parameter& p = predicate_.parameters[static_cast<std::size_t>(slot.parameter)];
-  const std::string name = input_name(slots_[static_cast<std::size_t>(n.index)]);
-  line(fmt::format("v{} = rnd({});", id, name));
+  const std::string k = own(id);
   const std::string range = literal(*p.range, Precision::binary64);
-  hypotheses_.push_back(fmt::format("|v{}| <= {}", id, range));
+  line(fmt::format("v{} = rnd(x{});  # {}", k, k, slots_[static_cast<std::size_t>(n.index)]));
+  hypotheses_.push_back(fmt::format("|v{}| <= {}", k, range));
   if (p.bounded) {
-    line(fmt::format("e{} = {}_exact;", id, name));
-    hypotheses_.push_back(fmt::format("|v{0} - e{0}| <= {1}", id, range));
+    line(fmt::format("e{} = y{};", k, k));
+    hypotheses_.push_back(fmt::format("|v{0} - e{0}| <= {1}", k, range));
   } else {
-    line(fmt::format("e{0} = v{0};", id));
+    line(fmt::format("e{0} = v{0};", k));
   }
+}
+
+/// A scaling is exact but for an error of at most eta / 2 where its result is subnormal, an unknown d of the script:
+/// Gappa would charge rnd(v * 1b-1) a full rounding.
+bool ScriptPrinter::define_scaling(NodeId id, const Node& n) {
+  const std::string scaled = fmt::format("{} * 1b{}", operand(n.a, 'v'), n.index);
+  if (n.index >= 0) {
+    line(fmt::format("v{} = {};", own(id), scaled));
+  } else {
+    line(fmt::format("v{0} = {1} + d{0};", own(id), scaled));
+    hypotheses_.push_back(fmt::format("|d{}| <= 1b{}", own(id), precision_ == Precision::binary64 ? -1075 : -150));
+    hints_ += fmt::format("v{0} - e{0} -> ({1} - {2}) * 1b{3} + d{0};\n", own(id), operand(n.a, 'v'), operand(n.a, 'e'),
+                          n.index);
+  }
+  line(fmt::format("e{} = {} * 1b{};", own(id), operand(n.a, 'e'), n.index));
+  return true;
+}
+
+/// ||a^| - |a|| <= |a^ - a|, which Gappa does not know: |a^| = |a| + s (a^ - a) for some s in [-1, 1].
+bool ScriptPrinter::define_absolute(NodeId id, const Node& n) {
+  const std::string error = fmt::format("({} - {})", operand(n.a, 'v'), operand(n.a, 'e'));
+  line(fmt::format("e{} = |{}|;", own(id), operand(n.a, 'e')));
+  line(fmt::format("v{0} = e{0} + s{0} * {1};", own(id), error));
+  hypotheses_.push_back(fmt::format("|s{}| <= 1", own(id)));
+  hints_ += fmt::format("v{0} - e{0} -> s{0} * {1};\n", own(id), error);
+  return true;
 }
 
 /// False if Gappa has no such operation.
@@ -85,8 +129,8 @@ bool ScriptPrinter::define(NodeId id, const Node& n) {
       const std::string c = n.c == dsl::no_node ? "" : operand(n.c, kind);
       const std::string expression =
           fmt::format(fmt::runtime(form), fmt::arg("a", a), fmt::arg("b", b), fmt::arg("c", c));
-      line(rounded && kind == 'v' ? fmt::format("v{} = rnd({});", id, expression)
-                                  : fmt::format("{}{} = {};", kind, id, expression));
+      line(rounded && kind == 'v' ? fmt::format("v{} = rnd({});", own(id), expression)
+                                  : fmt::format("{}{} = {};", kind, own(id), expression));
     }
     return true;
   };
@@ -105,13 +149,13 @@ bool ScriptPrinter::define(NodeId id, const Node& n) {
     case Op::mul:
       return define_as("{a} * {b}", true);
     case Op::mul_pow2:
-      return define_as(fmt::format("{{a}} * 1b{}", n.index), true);
+      return define_scaling(id, n);
     case Op::div:
       return define_as("{a} / {b}", true);
     case Op::sqrt:
       return define_as("sqrt({a})", true);
     case Op::abs:
-      return define_as("|{a}|", false);
+      return define_absolute(id, n);
     case Op::fma:
       return define_as("{a} * {b} + {c}", true);
     case Op::certain_nonzero:  // the guards pass on what the ranges make certain
@@ -125,25 +169,15 @@ bool ScriptPrinter::define(NodeId id, const Node& n) {
   return false;
 }
 
-std::optional<std::string> ScriptPrinter::print(const Claim& claim, Precision precision) {
+std::optional<std::string> ScriptPrinter::print(const Claim& claim) {
   for (std::size_t begin = 0; begin < claim.comment.size();) {
     const std::size_t end = std::min(claim.comment.find('\n', begin), claim.comment.size());
     line("# " + comment_text(std::string_view(claim.comment).substr(begin, end - begin)));
     begin = end + 1;
   }
-  line(fmt::format("@rnd = float<ieee_{}, ne>;", precision == Precision::binary64 ? 64 : 32));
-  std::vector<bool> needed(static_cast<std::size_t>(graph_.size()), false);
-  needed[static_cast<std::size_t>(claim.value)] = true;
-  for (NodeId id = claim.value; id >= 0; --id) {
-    if (!needed[static_cast<std::size_t>(id)]) continue;
-    const Node& n = graph_[id];
-    const bool guard = n.op == Op::certain_nonzero || n.op == Op::certain_nonnegative;
-    for (const NodeId operand : {n.a, guard ? dsl::no_node : n.b, n.c}) {
-      if (operand != dsl::no_node) needed[static_cast<std::size_t>(operand)] = true;
-    }
-  }
-  for (NodeId id = 0; id <= claim.value; ++id) {
-    if (needed[static_cast<std::size_t>(id)] && !define(id, graph_[id])) return std::nullopt;
+  line(fmt::format("@rnd = float<ieee_{}, ne>;", precision_ == Precision::binary64 ? 64 : 32));
+  for (const NodeId id : cone(claim.value)) {
+    if (!define(id, graph_[id])) return std::nullopt;
   }
   const std::string error = fmt::format("{} - {}", operand(claim.value, 'v'), operand(claim.value, 'e'));
   std::string goals;
@@ -152,6 +186,7 @@ std::optional<std::string> ScriptPrinter::print(const Claim& claim, Precision pr
   }
   line("{ " + fmt::format("{}", fmt::join(hypotheses_, " /\\\n  ")) + (hypotheses_.empty() ? "" : "\n  ->\n  ") +
        goals + error + " in ? }");
+  out_ += hints_;
   return std::move(out_);
 }
 
@@ -159,7 +194,7 @@ std::optional<std::string> ScriptPrinter::print(const Claim& claim, Precision pr
 
 std::optional<std::string> gappa_script(const dsl::Predicate& predicate, const Graph& graph, const Claim& claim,
                                         Precision precision) {
-  return ScriptPrinter(predicate, graph).print(claim, precision);
+  return ScriptPrinter(predicate, graph, precision).print(claim);
 }
 
 }  // namespace tightrope::codegen

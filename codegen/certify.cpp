@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <sstream>
 
 #include "codegen/certificate.h"
 #include "codegen/gappa.h"
@@ -51,6 +53,14 @@ std::vector<double> bounds_at_corners(const dsl::Predicate& predicate, const Bou
   return result;
 }
 
+std::string without_comments(const std::string& script) {
+  std::stringstream lines(script);
+  std::string result;
+  std::string line;
+  while (std::getline(lines, line)) result += line.substr(0, line.find('#')) + "\n";
+  return result;
+}
+
 class Certifier {
  public:
   Certifier(const CertifyRequest& request, std::vector<Certificate>& certificates)
@@ -61,18 +71,19 @@ class Certifier {
  private:
   std::string certify_element(const dsl::Predicate& predicate, const BoundedPredicate& bounded, dsl::NodeId value,
                               Certificate certificate);
-  void ask_gappa(const std::string& script, Certificate& certificate) const;
+  void ask_gappa(const std::string& path, const std::string& script, Certificate& certificate);
 
   const CertifyRequest& request_;
   std::vector<Certificate>& certificates_;
+  std::map<std::string, GappaAnswer> answers_;  ///< by script without comments: outputs often differ in names alone
 };
 
 std::string Certifier::run(const dsl::Predicate& predicate, BoundMode mode, Precision precision,
                            dsl::Diagnostics& diagnostics) {
-  const BoundedPredicate bounded = add_bounds(predicate, mode, precision, diagnostics);
+  const BoundedPredicate bounded = add_bounds(predicate, mode, precision, diagnostics, request_.weakening);
   BoundedPredicate by_rules;
   if (mode == BoundMode::fixed) {
-    add_static_bounds(simplify(predicate), format(precision), diagnostics, Weakening::none, by_rules,
+    add_static_bounds(simplify(predicate), format(precision), diagnostics, request_.weakening, by_rules,
                       StaticLemmas::none);
   }
   if (diagnostics.has_errors()) return "";
@@ -117,7 +128,7 @@ std::string Certifier::certify_element(const dsl::Predicate& predicate, const Bo
     const auto path = request_.directory / fmt::format("{}.{}.{}.g", c.output, name(c.mode), name(c.precision));
     const std::vector<TextFile> files = {{path, *script}};
     if (const std::string error = write_files(files); !error.empty()) return error;
-    if (!request_.gappa.empty()) ask_gappa(path.string(), c);
+    if (!request_.gappa.empty()) ask_gappa(path.string(), *script, c);
   } else {
     c.verdict = Verdict::no_script;
   }
@@ -125,9 +136,13 @@ std::string Certifier::certify_element(const dsl::Predicate& predicate, const Bo
   return "";
 }
 
-void Certifier::ask_gappa(const std::string& script, Certificate& c) const {
+void Certifier::ask_gappa(const std::string& path, const std::string& script, Certificate& c) {
+  const std::string key = without_comments(script);
   const auto start = std::chrono::steady_clock::now();
-  const GappaAnswer answer = run_gappa(request_.gappa, script, script + ".log", request_.time_limit);
+  if (!answers_.contains(key)) {
+    answers_[key] = run_gappa(request_.gappa, path, path + ".log", request_.time_limit);
+  }
+  const GappaAnswer& answer = answers_[key];
   c.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   c.gappa_bound = answer.found.value_or(infinity);
   switch (answer.status) {

@@ -12,11 +12,12 @@ namespace tightrope::codegen {
 struct CertifyRequest {
   std::vector<BoundMode> modes = {BoundMode::fixed, BoundMode::safe};
   std::vector<Precision> precisions = {Precision::binary64};
-  double assumed_range = 1;         ///< of inputs that declare none
-  std::filesystem::path directory;  ///< for NAME.STAGE.OUTPUT[i].MODE.REAL.g and what Gappa printed
-  std::string gappa;                ///< the program; empty: scripts are written, nothing is run
-  double time_limit = 60;           ///< seconds a script
-  double scale = 1;                 ///< test hook: every claim is multiplied by this
+  double assumed_range = 1;               ///< of inputs that declare none
+  std::filesystem::path directory;        ///< for NAME.STAGE.OUTPUT[i].MODE.REAL.g and what Gappa printed
+  std::string gappa;                      ///< the program; empty: scripts are written, nothing is run
+  double time_limit = 60;                 ///< seconds a script
+  double scale = 1;                       ///< test hook: every claim is multiplied by this
+  Weakening weakening = Weakening::none;  ///< test hook: every claim lacks a term
 };
 
 /// One output element in one mode and precision.
