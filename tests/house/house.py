@@ -19,7 +19,7 @@ source_location span sstream stack stdexcept stop_token streambuf string string_
 system_error thread tuple type_traits typeindex typeinfo unordered_map unordered_set utility valarray variant vector
 version cassert cctype cerrno cfenv cfloat cinttypes climits clocale cmath csetjmp csignal cstdarg cstddef cstdint
 cstdio cstdlib cstring ctime cuchar cwchar cwctype""".split())
-POSIX = r"unistd\.h|signal\.h|fcntl\.h|sys/\w+\.h"
+POSIX = r"unistd\.h|signal\.h|spawn\.h|fcntl\.h|sys/\w+\.h"
 GENERATED = r"[\w-]+\.(?:float|safe|tight)\.(?:double|float)\.h"
 
 # Folder (the longest prefix wins): what its files may include besides the standard library, as patterns of the path in
