@@ -15,6 +15,7 @@ struct EvaluateOptions {
   std::string methods = "all";
   std::string truth;
   std::string kind;
+  std::string real = "double";
   std::string format;
   std::vector<std::string> paths;
 };
@@ -22,6 +23,11 @@ struct EvaluateOptions {
 TruthSource truth_source(const std::string& text) {
   if (text == "exact") return TruthSource::exact;
   return text == "file" ? TruthSource::file : TruthSource::file_if_told;
+}
+
+std::vector<Precision> precisions(const std::string& real) {
+  if (real == "all") return {Precision::in_double, Precision::in_float};
+  return {real == "float" ? Precision::in_float : Precision::in_double};
 }
 
 void tell_notes(const Evaluation& evaluation) {
@@ -32,8 +38,15 @@ void tell_notes(const Evaluation& evaluation) {
     warn(
         fmt::format("the files tell a truth that is not the exact one for {} of the queries", evaluation.wrong_truths));
   }
+  if (evaluation.left_out > 0) {
+    warn(fmt::format("queries beyond the range of float, left out there: {}", evaluation.left_out));
+  }
   const bool known =
       std::all_of(evaluation.rows.begin(), evaluation.rows.end(), [](const auto& row) { return row.mistakes; });
+  if (evaluation.changed > 0) {
+    warn(fmt::format("queries that rounding to float changes{}: {}",
+                     known ? "; their truth in float was decided exactly" : "", evaluation.changed));
+  }
   if (!known) warn("the truth is not known, a file tells none; --truth exact decides the queries exactly");
 }
 
@@ -43,6 +56,7 @@ int run(const EvaluateOptions& options) {
   const EvaluationRequest request{.paths = options.paths,
                                   .kind = chosen_kind(options.kind),
                                   .methods = std::get<std::vector<Method>>(std::move(chosen)),
+                                  .precisions = precisions(options.real),
                                   .truth = truth_source(options.truth)};
   const auto outcome = evaluate(request);
   if (const auto* wrong = std::get_if<FileError>(&outcome)) return fail(wrong->message);
@@ -67,6 +81,12 @@ Subcommand add_evaluate(CLI::App& app) {
                    "they tell it")
       ->type_name("SOURCE")
       ->check(CLI::IsMember({"file", "exact"}));
+  command
+      ->add_option("--real", options->real,
+                   "the type that methods compute in: double, float or all; double if not given. For float every "
+                   "coordinate is rounded to the nearest one")
+      ->type_name("REAL")
+      ->check(CLI::IsMember({"double", "float", "all"}));
   add_kind(*command, options->kind,
            "kind of CSV files whose path does not tell it; leaves out queries of the other kind");
   add_format(*command, options->format, {"table", "json", "csv"});
@@ -74,8 +94,11 @@ Subcommand add_evaluate(CLI::App& app) {
       ->required()
       ->type_name("");
   command->footer(
-      "Times are of one thread, double precision, reading not included; '/ tight' is the ratio to the method tight,\n"
-      "measured in the same run. The exit status is 0 also when a method is wrong.");
+      "'uncertain' counts the signs that a method met and its bounds could not tell. Times are of one thread, reading "
+      "not\n"
+      "included; '/ tight' is the ratio to the method tight in the same type, measured in the same run. The exit "
+      "status\n"
+      "is 0 also when a method is wrong.");
   return {command, [options] { return run(*options); }};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -18,10 +19,15 @@ enum class TruthSource {
   exact,         ///< the exact oracle's
 };
 
+/// The type that a method computes in.
+enum class Precision { in_double, in_float };
+std::string_view name(Precision precision);  ///< "double", "float"
+
 struct EvaluationRequest {
   std::vector<std::string> paths;
   std::optional<Kind> kind;
   std::vector<Method> methods;
+  std::vector<Precision> precisions = {Precision::in_double};
   TruthSource truth = TruthSource::file_if_told;
 };
 
@@ -35,17 +41,22 @@ struct Mistakes {
 struct EvaluationRow {
   Method method{};
   Kind kind{};
+  Precision precision{};
   std::uint64_t queries = 0;
   std::uint64_t answers_true = 0;
   std::optional<Mistakes> mistakes;  ///< empty: the truth is not known
+  std::uint64_t uncertain = 0;       ///< signs met that the method could not tell
   double ns_per_query = 0;
-  double time_ratio_to_tight = 0;  ///< `tight` measured in the same run
+  double time_ratio_to_tight = 0;  ///< `tight` in the same precision, measured in the same run
 };
 
 struct Evaluation {
-  std::vector<EvaluationRow> rows;  ///< kind by kind, the methods in the order of the request; no rows without queries
-  std::uint64_t rounded = 0;        ///< rational coordinates that were rounded to a double
-  std::uint64_t wrong_truths = 0;   ///< TruthSource::exact: truths in files that are not the exact ones
+  /// Kind by kind, precision by precision, the methods in the order of the request; no rows without queries.
+  std::vector<EvaluationRow> rows;
+  std::uint64_t rounded = 0;       ///< rational coordinates that were rounded to a double
+  std::uint64_t wrong_truths = 0;  ///< TruthSource::exact: truths in files that are not the exact ones
+  std::uint64_t changed = 0;       ///< queries that rounding to float changes; their truth there is the exact oracle's
+  std::uint64_t left_out = 0;      ///< queries beyond the range of float, left out there
 };
 
 std::variant<Evaluation, FileError> evaluate(const EvaluationRequest& request);

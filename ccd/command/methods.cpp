@@ -26,7 +26,7 @@ std::string methods_json() {
                      {"bound", info.bound},
                      {"conservative", info.conservative},
                      {"kinds", {name(Kind::vertex_face), name(Kind::edge_edge)}},
-                     {"reals", {"double"}},
+                     {"reals", {"double", "float"}},
                      {"devices", {"cpu"}},
                      {"source", info.source}});
   }

@@ -20,14 +20,14 @@ Json object(const EvaluationRow& row) {
   };
   return {{"method", name(row.method)},
           {"kind", name(row.kind)},
-          {"real", "double"},
+          {"real", name(row.precision)},
           {"device", "cpu"},
           {"threads", 1},
           {"queries", row.queries},
           {"collisions", count(&Mistakes::collisions)},
           {"false_positives", count(&Mistakes::false_positives)},
           {"false_negatives", count(&Mistakes::false_negatives)},
-          {"uncertain", nullptr},
+          {"uncertain", row.uncertain},
           {"ns_per_query", rounded(row.ns_per_query)},
           {"time_ratio_to_tight", rounded(row.time_ratio_to_tight)}};
 }
@@ -35,17 +35,18 @@ Json object(const EvaluationRow& row) {
 }  // namespace
 
 std::string table(std::span<const EvaluationRow> rows) {
-  constexpr const char* layout = "{:<12} {:<11} {:>10} {:>10} {:>13} {:>15} {:>15} {:>9} {:>9}\n";
-  std::string text = fmt::format(fmt::runtime(layout), "method", "kind", "queries", "collisions", "answered true",
-                                 "false positives", "false negatives", "ns/query", "/ tight");
+  constexpr const char* layout = "{:<12} {:<11} {:<6} {:>9} {:>10} {:>13} {:>15} {:>15} {:>10} {:>9} {:>7}\n";
+  std::string text =
+      fmt::format(fmt::runtime(layout), "method", "kind", "real", "queries", "collisions", "answered true",
+                  "false positives", "false negatives", "uncertain", "ns/query", "/ tight");
   for (const EvaluationRow& row : rows) {
     const auto count = [&](std::uint64_t Mistakes::*field) {
       return row.mistakes ? fmt::format("{}", (*row.mistakes).*field) : std::string("-");
     };
-    text +=
-        fmt::format(fmt::runtime(layout), name(row.method), name(row.kind), row.queries, count(&Mistakes::collisions),
-                    row.answers_true, count(&Mistakes::false_positives), count(&Mistakes::false_negatives),
-                    fmt::format("{:.1f}", row.ns_per_query), fmt::format("{:.2f}", row.time_ratio_to_tight));
+    text += fmt::format(fmt::runtime(layout), name(row.method), name(row.kind), name(row.precision), row.queries,
+                        count(&Mistakes::collisions), row.answers_true, count(&Mistakes::false_positives),
+                        count(&Mistakes::false_negatives), row.uncertain, fmt::format("{:.1f}", row.ns_per_query),
+                        fmt::format("{:.2f}", row.time_ratio_to_tight));
   }
   return text;
 }

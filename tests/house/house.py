@@ -34,7 +34,8 @@ RULES = {
     "ccd/oracle/": [r"ccd/oracle/.*", API, r"gmp(?:xx)?\.h"],
     "ccd/query_io/": [r"ccd/query_io/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"hdf5\.h", POSIX],
     "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],
-    "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io)/.*", API, r"fmt/.*", r"CLI/.*", r"nlohmann/.*", POSIX],
+    "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io)/.*", API, r"ccd/query\.h", r"fmt/.*", r"CLI/.*",
+                     r"nlohmann/.*", POSIX],
 }
 INCLUDE_ROOTS = ["", "ccd", "runtime"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -48,10 +48,11 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
       {{"evaluate"}, "PATH is required"},
       {{"evaluate", "--colour", "x"},
        "The following argument was not expected: --colour; accepted by evaluate: --help, "
-       "--method, --truth, --kind, --format, PATH"},
+       "--method, --truth, --real, --kind, --format, PATH"},
       {{"evaluate", "--method", "tigth", "x"}, "unknown method 'tigth'; accepted: all, " + methods},
       {{"evaluate", "--method", "tight,", "x"}, "unknown method ''; accepted: all, " + methods},
       {{"evaluate", "--format", "xml", "x"}, "--format: xml not in {table,json,csv}"},
+      {{"evaluate", "--real", "half", "x"}, "--real: half not in {double,float,all}"},
       {{"evaluate", "--truth", "mine", "x"}, "--truth: mine not in {file,exact}"},
       {{"evaluate", "--kind", "face-face", "x"}, "--kind: face-face not in {vertex-face,edge-edge}"},
       {{"classify", "--method", "all", "x"}, "unknown method 'all'; accepted: " + methods},
@@ -76,7 +77,7 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
 
 TEST(Command, WhatIsNotOfferedYetIsRejected) {
   const ScratchDirectory scratch;
-  for (const std::string option : {"--threads", "--device", "--real", "--chart"}) {
+  for (const std::string option : {"--threads", "--device", "--chart"}) {
     const Outcome outcome = run_command(scratch, {"evaluate", option, "1", "x"});
     EXPECT_EQ(outcome.status, 2) << option;
     EXPECT_NE(outcome.err.find(option), std::string::npos) << outcome.err;
