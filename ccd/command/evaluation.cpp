@@ -9,7 +9,7 @@
 
 #include "command/measurement.h"
 #include "command/progress.h"
-#include "command/single_precision.h"
+#include "scenes/single_precision.h"
 #include "query_io/query_files.h"
 #include "scenes/truth.h"
 

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "scenes/scene.h"
+#include "scenes/single_precision.h"
 #include "scenes/truth.h"
 #include "tests/stability/show_query.h"
 
@@ -26,47 +28,70 @@ std::size_t number_of_queries(Scene scene) {
   return info->survey ? 4000 : 20000;
 }
 
+/// What conservative methods answered on one scene, in one type.
+struct Tally {
+  std::size_t queries = 0;
+  std::size_t contacts = 0;
+  std::vector<std::size_t> false_positives = std::vector<std::size_t>(methods().size());
+  int shown = 0;
+
+  /// Failures where a conservative method misses a contact.
+  template <class Real>
+  void add(Kind kind, std::span<const Real> points, std::span<const unsigned char> truths, const char* type) {
+    queries += truths.size();
+    contacts += static_cast<std::size_t>(std::count(truths.begin(), truths.end(), 1));
+    std::vector<unsigned char> answers(truths.size());
+    for (std::size_t m = 0; m < methods().size(); ++m) {
+      if (!methods()[m].conservative) continue;
+      collides(kind, points.data(), truths.size(), answers.data(), methods()[m].method);
+      for (std::size_t i = 0; i < truths.size(); ++i) {
+        false_positives[m] += answers[i] > truths[i] ? 1 : 0;
+        if (answers[i] >= truths[i] || ++shown > 5) continue;
+        const std::vector<double> query(points.begin() + static_cast<std::ptrdiff_t>(24 * i),
+                                        points.begin() + static_cast<std::ptrdiff_t>(24 * i + 24));
+        ADD_FAILURE() << methods()[m].name << " in " << type << " misses this " << name(kind) << " query:\n"
+                      << show_query(query.data());
+      }
+    }
+  }
+
+  void print(Scene scene, Kind kind, const char* type) const {
+    EXPECT_GT(contacts, 0U) << "a test without contacts shows nothing";
+    std::printf("%s %s %s: %zu queries, %zu contacts; false positives:", name(scene).data(), name(kind).data(), type,
+                queries, contacts);
+    for (std::size_t m = 0; m < methods().size(); ++m) {
+      if (methods()[m].conservative) std::printf(" %s %zu", methods()[m].name.data(), false_positives[m]);
+    }
+    std::printf("\n");
+  }
+};
+
 class Conservative : public testing::TestWithParam<std::tuple<Scene, Kind>> {};
 
+/// In double, and every third block rounded to float, where contact is decided anew.
 TEST_P(Conservative, NoFalseNegative) {
   const auto [scene, kind] = GetParam();
   const std::size_t total = number_of_queries(scene);
   ASSERT_GT(total, 0U);
   constexpr std::uint64_t seed = 20240607;
   const auto generator = generate(scene, kind, total, seed);
-  std::vector<double> points;
-  std::vector<unsigned char> truths;
-  std::vector<unsigned char> answers;
-  std::size_t contacts = 0;
-  std::vector<std::size_t> false_positives(methods().size());
-  int shown = 0;
-  for (std::size_t done = 0; done < total; done += truths.size()) {
-    const std::size_t count = std::min<std::size_t>(16384, total - done);
-    points.resize(24 * count);
-    truths.resize(count);
-    answers.resize(count);
-    generator->fill(points);
-    exact_truths(kind, points, truths);
-    contacts += static_cast<std::size_t>(std::count(truths.begin(), truths.end(), 1));
-    for (std::size_t m = 0; m < methods().size(); ++m) {
-      if (!methods()[m].conservative) continue;
-      collides(kind, points.data(), count, answers.data(), methods()[m].method);
-      for (std::size_t i = 0; i < count; ++i) {
-        false_positives[m] += answers[i] > truths[i] ? 1 : 0;
-        if (answers[i] >= truths[i] || ++shown > 5) continue;
-        ADD_FAILURE() << methods()[m].name << " misses " << name(kind) << " query " << done + i << " of " << name(scene)
-                      << ", seed " << seed << ":\n"
-                      << show_query(points.data() + 24 * i);
-      }
-    }
+  QueryBlock block;
+  block.kind = kind;
+  Tally in_double, in_float;
+  std::size_t number = 0;
+  for (std::size_t done = 0; done < total; done += block.size()) {
+    const std::size_t count = std::min<std::size_t>(std::min<std::size_t>(16384, total / 3 + 1), total - done);
+    block.points.resize(24 * count);
+    block.truths.resize(count);
+    generator->fill(block.points);
+    exact_truths(kind, block.points, block.truths);
+    in_double.add<double>(kind, block.points, block.truths, "double");
+    if (number++ % 3 != 0) continue;
+    const SingleBlock single = in_single_precision(block, true);
+    in_float.add<float>(kind, single.points, single.truths, "float");
   }
-  EXPECT_GT(contacts, 0U) << "a test without contacts shows nothing";
-  std::printf("%s %s: %zu queries, %zu contacts; false positives:", name(scene).data(), name(kind).data(), total,
-              contacts);
-  for (std::size_t m = 0; m < methods().size(); ++m) {
-    if (methods()[m].conservative) std::printf(" %s %zu", methods()[m].name.data(), false_positives[m]);
-  }
-  std::printf("\n");
+  in_double.print(scene, kind, "double");
+  in_float.print(scene, kind, "float");
 }
 
 /// What the test above is worth: the same algorithm with its error bounds dropped is caught in these scenes.

@@ -1,4 +1,4 @@
-#include "command/single_precision.h"
+#include "scenes/single_precision.h"
 
 #include <algorithm>
 #include <array>
