@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <sstream>
 
 #include "codegen/certify.h"
@@ -87,6 +88,7 @@ struct Arguments {
   std::string gappa = "gappa";
   double time_limit = 60;
   double assumed_range = 1;
+  std::optional<double> report_range;
   bool tests = false;
   bool measure = false;
 };
@@ -172,16 +174,21 @@ int run_compile(const Arguments& arguments) {
 int run_report(const Arguments& arguments) {
   CompileRequest request;
   if (const std::string error = interpret(arguments, request); !error.empty()) return usage_error(error);
-  if (arguments.format != "text" && arguments.format != "json") {
-    return usage_error(fmt::format("--format: unknown value '{}' (accepted: text, json)", arguments.format));
+  if (arguments.format != "text" && arguments.format != "json" && arguments.format != "table") {
+    return usage_error(fmt::format("--format: unknown value '{}' (accepted: text, json, table)", arguments.format));
   }
   dsl::SourceMap sources;
   dsl::Diagnostics diagnostics;
-  const dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
+  dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
   if (diagnostics.has_errors()) return program_error(diagnostics, sources);
+  if (arguments.report_range) {
+    if (!(*arguments.report_range > 0)) return usage_error("--assume-range takes a positive number");
+    for (dsl::Predicate& p : program.predicates) p = with_assumed_ranges(p, *arguments.report_range);
+  }
   const auto bounded = bounded_programs(program, modes_of(request, program), request.precisions, diagnostics);
   if (diagnostics.has_errors()) return program_error(diagnostics, sources);
-  const std::string text = report(program, bounded, {arguments.format == "json", arguments.measure});
+  const std::string text =
+      report(program, bounded, {arguments.format == "json", arguments.format == "table", arguments.measure});
   std::fputs(text.c_str(), stdout);
   return done;
 }
@@ -262,7 +269,10 @@ int run_command(int argc, const char* const* argv) {
   CLI::App& report = *app.add_subcommand("report", "Per output: degree, operation counts, bound");
   add_file_option(report, arguments, false);
   add_program_options(report, arguments);
-  report.add_option("--format", arguments.format, "text or json")->capture_default_str();
+  report.add_option("--format", arguments.format, "text, json, or table (with --measure: bound / error by mode)")
+      ->capture_default_str();
+  report.add_option("--assume-range", arguments.report_range,
+                    "range of the inputs that declare none (else they have none)");
   report.add_flag("--measure", arguments.measure, "also compare the bounds with true errors on random inputs");
   report.callback([&] { run = run_report; });
 

@@ -46,6 +46,7 @@ template <class Real>
 std::vector<Real> draw(const dsl::Predicate& predicate, Sampling sampling, std::mt19937_64& random) {
   const std::size_t n = predicate.slots.size();
   std::vector<Real> slots(2 * n, Real(0));
+  const double largest = std::numeric_limits<Real>::max();
   Real centre[3];
   for (Real& c : centre) c = uniform<Real>(random);
   for (std::size_t i = 0; i < n; ++i) {
@@ -54,6 +55,7 @@ std::vector<Real> draw(const dsl::Predicate& predicate, Sampling sampling, std::
     if (sampling == Sampling::close && parameter.point) {
       x = centre[predicate.slots[i].component] + std::ldexp(x, -10);
     }
+    if (parameter.range) x *= static_cast<Real>(std::min(*parameter.range, largest / 2));
     while (std::abs(static_cast<double>(x)) > parameter.range.value_or(std::numeric_limits<double>::infinity())) x /= 2;
     slots[i] = x;
   }

@@ -10,8 +10,8 @@ namespace tightrope::codegen {
 
 /// How the inputs of a measurement are drawn.
 enum class Sampling {
-  spread,  ///< every number uniform in [-1, 1] (within the declared range)
-  close,   ///< neighbours: points within 2^-10 of a common one, as the primitives of a mesh are
+  spread,  ///< every number uniform in [-1, 1], with a declared range uniform in that
+  close,   ///< neighbours: points within 2^-10 of a common one (of the range), as the primitives of a mesh are
 };
 inline constexpr std::array<Sampling, 2> samplings = {Sampling::spread, Sampling::close};
 const char* name(Sampling sampling);

@@ -9,6 +9,8 @@
 #include "codegen/interface.h"
 #include "codegen/measure.h"
 #include "codegen/precision.h"
+#include "codegen/simplify.h"
+#include "codegen/static_bound.h"
 
 namespace tightrope::codegen {
 namespace {
@@ -146,6 +148,61 @@ std::string to_text(const Entry& entry) {
   return text;
 }
 
+/// "16.7 / 892 / 1.2e+05": median, 99th percentile and greatest of bound / error. Where few signs are definite no ratio
+/// says much.
+std::string ratios(const OutputMeasure& m) {
+  if (m.samples == m.not_finite + m.without_error) return "exact";
+  return fmt::format("{:.3g} / {:.3g} / {:.2g}", m.median_ratio, m.p99_ratio, m.greatest_ratio);
+}
+
+struct Column {
+  std::string title;
+  Entry entry;
+};
+
+/// One predicate in one precision: every mode with bounds, and `static` as Gappa would have it, by its rules alone
+/// (`certify` shows whether the two agree). A number as bound says nothing where errors of any size come in.
+std::vector<Column> columns(const dsl::Predicate& predicate, std::size_t index, Precision precision,
+                            const std::vector<BoundedProgram>& bounded, const ReportOptions& options,
+                            BoundedPredicate& by_rules) {
+  std::vector<Column> result;
+  const bool errors_come_in = std::any_of(predicate.parameters.begin(), predicate.parameters.end(),
+                                          [](const dsl::Parameter& p) { return p.bounded; });
+  for (const BoundedProgram& combination : bounded) {
+    if (combination.precision != precision || combination.mode == BoundMode::none) continue;
+    const bool constant = combination.mode == BoundMode::fixed;
+    if (constant && errors_come_in) continue;
+    result.push_back(
+        {name(combination.mode), make_entry(predicate, combination.predicates[index], combination, options)});
+    if (!constant) continue;
+    dsl::Diagnostics ignored;
+    add_static_bounds(simplify(predicate), format(precision), ignored, Weakening::none, by_rules, StaticLemmas::none);
+    result.push_back({"static, rules alone", make_entry(predicate, by_rules, combination, options)});
+  }
+  return result;
+}
+
+std::string to_table(const std::vector<Column>& entries) {
+  const Entry& first = entries.front().entry;
+  std::string text = fmt::format("| {}, {} |", first.predicate.name, name(first.precision));
+  std::string rule = "\n|---|";
+  for (const Column& column : entries) {
+    text += fmt::format(" {} |", column.title);
+    rule += "---|";
+  }
+  text += rule + "\n";
+  for (std::size_t s = 0; s < first.predicate.stages.size(); ++s) {
+    for (std::size_t o = 0; o < first.predicate.stages[s].outputs.size(); ++o) {
+      text += fmt::format("| `{}` |", first.predicate.stages[s].outputs[o].name);
+      for (const auto& [title, entry] : entries) {
+        text += entry.measures.empty() ? " - |" : fmt::format(" {} |", ratios(entry.measures[0][s].outputs[o]));
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string report(const dsl::Program& program, const std::vector<BoundedProgram>& bounded,
@@ -153,6 +210,14 @@ std::string report(const dsl::Program& program, const std::vector<BoundedProgram
   Json json = Json::array();
   std::string text;
   for (std::size_t i = 0; i < program.predicates.size(); ++i) {
+    if (options.table) {
+      for (const Precision precision : {Precision::binary64, Precision::binary32}) {
+        BoundedPredicate by_rules;
+        const std::vector<Column> entries = columns(program.predicates[i], i, precision, bounded, options, by_rules);
+        if (!entries.empty()) text += (text.empty() ? "" : "\n") + to_table(entries);
+      }
+      continue;
+    }
     for (const BoundedProgram& combination : bounded) {
       const Entry entry = make_entry(program.predicates[i], combination.predicates[i], combination, options);
       if (options.json) {

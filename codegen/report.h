@@ -10,6 +10,7 @@ namespace tightrope::codegen {
 
 struct ReportOptions {
   bool json = false;
+  bool table = false;  ///< a Markdown table of bound / true error, one line an output, one column a mode
   bool measure = false;
 };
 

@@ -143,7 +143,7 @@ TEST(Command, BadUsageIsOneClearLineAndStatus2) {
        "tightrope: error: --products: unknown value 'fast' (accepted: direct, karatsuba)"},
       {"compile orient2d.pred --target cuda -o out",
        "tightrope: error: --target: unknown value 'cuda' (accepted: cpp)"},
-      {"report orient2d.pred --format xml", "tightrope: error: --format: unknown value 'xml' (accepted: text, json)"},
+      {"report orient2d.pred --format xml", "tightrope: error: --format: unknown value 'xml' (accepted: text, json, table)"},
       {"compile missing.pred -o out", "tightrope: error: cannot read missing.pred"},
       {"check missing.pred", "tightrope: error: cannot read missing.pred"},
       {"check .", "tightrope: error: cannot read ."},

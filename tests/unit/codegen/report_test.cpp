@@ -84,5 +84,17 @@ TEST(Report, TextSaysTheSame) {
   }
 }
 
+TEST(Report, TableHasOneColumnForEveryMode) {
+  const dsl::Program program = testing_support::program(
+      "predicate p(point2 a, b, c) { range |a, b, c| <= 4 sign det(a - c, b - c) as side, a as corner }\n");
+  dsl::Diagnostics diagnostics;
+  const auto bounded = bounded_programs(program, {BoundMode::none, BoundMode::tight, BoundMode::fixed},
+                                        {Precision::binary64}, diagnostics);
+  const std::string text = report(program, bounded, {.table = true, .measure = true});
+  EXPECT_EQ(text.find("| p, double | tight | static | static, rules alone |\n|---|---|---|---|\n| `side` | "), 0U)
+      << text;
+  EXPECT_NE(text.find("| `corner` | exact | exact | exact |\n"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace tightrope::codegen
