@@ -40,20 +40,23 @@ struct Tally {
 
 /// The numbers of a format that stand for all where there are too many combinations. Level 1 keeps the first two and
 /// the last number of every binade (where roundings change their size), level 2 the first and the last, level 3 the
-/// first two and the last of every second binade, level 4 the first of every second and the largest; 0 always stays.
+/// first two and the last of every second binade, level 4 the first of every second, level 5 of every fourth, and so
+/// on; 0 and the largest always stay.
+inline constexpr int most_thinning = 6;
+
 template <class Mini>
 std::vector<Mini> thinned(int level) {
   std::vector<Mini> kept;
-  constexpr int binade = 1 << (Mini::digits - 1);
+  constexpr int size = 1 << (Mini::digits - 1);
   for (const Mini x : Mini::magnitudes()) {
-    const int place = x.magnitude() % binade;
-    const bool even = x.magnitude() / binade % 2 == 0;
+    const int place = x.magnitude() % size;
+    const int binade = x.magnitude() / size;
     const bool first = place == 0;
-    const bool last = place == binade - 1;
+    const bool last = place == size - 1;
     const bool near = first || place == 1 || last;
     const bool keep = level == 0 || (level == 1 && near) || (level == 2 && (first || last)) ||
-                      (level == 3 && even && near) || (level >= 4 && even && first) ||
-                      x.code() == Mini::largest().code();
+                      (level == 3 && binade % 2 == 0 && near) ||
+                      (level >= 4 && binade % (1 << (level - 3)) == 0 && first) || x.code() == Mini::largest().code();
     if (keep) kept.push_back(x);
   }
   return kept;
@@ -140,7 +143,7 @@ class RuleCheck {
         samples *= static_cast<double>(loops_.back().numbers.size());
       }
       tally_.thinning = level;
-      if (samples <= check_.most_samples || level == 4) return;
+      if (samples <= check_.most_samples || level == most_thinning) return;
     }
   }
 
