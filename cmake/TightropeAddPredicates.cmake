@@ -1,4 +1,4 @@
-# tightrope_add_predicates(TARGET FILES a.pred .. [BOUNDS float|safe|tight|static|interval ..] [REALS double|float ..] [TESTS])
+# tightrope_add_predicates(TARGET FILES a.pred .. [BOUNDS float|safe|tight|static|interval|exact|staged ..] [REALS double|float ..] [TESTS])
 #
 # Compiles predicates at build time and lets TARGET include the results, "a.tight.double.h" and so on (BOUNDS default to
 # tight, REALS to double). An INTERFACE library as TARGET passes them on to whoever links it in the same build.
@@ -26,9 +26,9 @@ function(tightrope_add_predicates target)
     set(arg_REALS double)
   endif()
   foreach(bound IN LISTS arg_BOUNDS)
-    if(NOT bound MATCHES "^(float|safe|tight|static|interval)$")
+    if(NOT bound MATCHES "^(float|safe|tight|static|interval|exact|staged)$")
       message(FATAL_ERROR
-        "tightrope_add_predicates: unknown bound ${bound} (float, safe, tight, static or interval)")
+        "tightrope_add_predicates: unknown bound ${bound} (float, safe, tight, static, interval, exact or staged)")
     endif()
   endforeach()
   foreach(real IN LISTS arg_REALS)

@@ -96,15 +96,18 @@ struct Arguments {
 std::string interpret(const Arguments& arguments, CompileRequest& request) {
   std::string error;
   request.file = arguments.files.front();
-  request.modes = selected<BoundMode>(
-      "--bound", arguments.bound,
-      {{"float", {BoundMode::none}},
-       {"safe", {BoundMode::safe}},
-       {"tight", {BoundMode::tight}},
-       {"static", {BoundMode::fixed}},
-       {"interval", {BoundMode::interval}},
-       {"all", {BoundMode::none, BoundMode::safe, BoundMode::tight, BoundMode::fixed, BoundMode::interval}}},
-      error);
+  request.modes = selected<BoundMode>("--bound", arguments.bound,
+                                      {{"float", {BoundMode::none}},
+                                       {"safe", {BoundMode::safe}},
+                                       {"tight", {BoundMode::tight}},
+                                       {"static", {BoundMode::fixed}},
+                                       {"interval", {BoundMode::interval}},
+                                       {"exact", {BoundMode::exact}},
+                                       {"staged", {BoundMode::staged}},
+                                       {"all",
+                                        {BoundMode::none, BoundMode::safe, BoundMode::tight, BoundMode::fixed,
+                                         BoundMode::interval, BoundMode::exact, BoundMode::staged}}},
+                                      error);
   request.only_applicable_modes = arguments.bound == "all";
   if (!error.empty()) return error;
   request.precisions = selected<Precision>("--real", arguments.real,
@@ -177,6 +180,12 @@ int run_report(const Arguments& arguments) {
   if (arguments.format != "text" && arguments.format != "json" && arguments.format != "table") {
     return usage_error(fmt::format("--format: unknown value '{}' (accepted: text, json, table)", arguments.format));
   }
+  for (const BoundMode mode : {BoundMode::exact, BoundMode::staged}) {
+    const bool asked = std::find(request.modes.begin(), request.modes.end(), mode) != request.modes.end();
+    if (asked && arguments.bound != "all") {
+      return usage_error(fmt::format("--bound: mode {} has no bounds to report", name(mode)));
+    }
+  }
   dsl::SourceMap sources;
   dsl::Diagnostics diagnostics;
   dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
@@ -235,7 +244,9 @@ void add_file_option(CLI::App& command, Arguments& arguments, bool several) {
 }
 
 void add_program_options(CLI::App& command, Arguments& arguments) {
-  command.add_option("--bound", arguments.bound, "float, safe, tight, static, interval, a comma list of them, or all")
+  command
+      .add_option("--bound", arguments.bound,
+                  "float, safe, tight, static, interval, exact, staged, a comma list of them, or all")
       ->capture_default_str();
   command.add_option("--real", arguments.real, "double, float, double,float or all")->capture_default_str();
   command

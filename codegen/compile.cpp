@@ -6,6 +6,8 @@
 #include "codegen/clang/validate.h"
 #include "codegen/hash.h"
 #include "codegen/print_cpp.h"
+#include "codegen/print_exact.h"
+#include "codegen/print_staged.h"
 #include "codegen/print_tests.h"
 
 namespace tightrope::codegen {
@@ -53,6 +55,61 @@ std::string validated_header(std::span<const GeneratedPredicate> predicates, con
   return text;
 }
 
+std::string exact_header(const dsl::Program& program, const HeaderOptions& options, const std::string& name,
+                         dsl::Diagnostics& diagnostics) {
+  std::vector<ExactProgram> exact;
+  for (const dsl::Predicate& predicate : program.predicates) {
+    exact.push_back(exact_program(predicate, diagnostics).value_or(ExactProgram{}));
+  }
+  if (diagnostics.has_errors()) return {};
+  std::vector<ExactPredicate> predicates;
+  for (std::size_t i = 0; i < exact.size(); ++i) predicates.push_back({&program.predicates[i], &exact[i]});
+  return formatted(print_exact_header(predicates, options), name);
+}
+
+/// Each filter is validated as a header of its own; the staged header holds the same text.
+std::string staged_header(const dsl::Program& program, const HeaderOptions& options, const std::string& name,
+                          dsl::Diagnostics& diagnostics, Weakening weakening) {
+  std::vector<StagedPredicate> staged;
+  for (const dsl::Predicate& predicate : program.predicates) {
+    if (auto s = staged_predicate(predicate, options.precision, diagnostics, weakening))
+      staged.push_back(std::move(*s));
+  }
+  if (diagnostics.has_errors()) return {};
+  for (const StagedPredicate& s : staged) {
+    for (const StagedFilter& filter : s.filters) {
+      const GeneratedPredicate generated = {s.predicate, &filter.bounded};
+      HeaderOptions of_filter = options;
+      of_filter.mode = filter.mode;
+      validated_header({&generated, 1}, of_filter, header_name("filter", filter.mode, options.precision));
+    }
+  }
+  return formatted(print_staged_header(staged, options), name);
+}
+
+bool has_bounds(BoundMode mode) { return mode != BoundMode::exact && mode != BoundMode::staged; }
+
+/// The headers of the modes whose signs are always known.
+std::vector<TextFile> exact_files(const CompileRequest& request, const std::vector<BoundMode>& modes,
+                                  const dsl::Program& program, HeaderOptions options, const std::string& stem,
+                                  dsl::Diagnostics& diagnostics, Weakening weakening) {
+  std::vector<TextFile> files;
+  for (const BoundMode mode : modes) {
+    if (has_bounds(mode)) continue;
+    for (const Precision precision : request.precisions) {
+      options.mode = mode;
+      options.precision = precision;
+      const std::string name = header_name(stem, mode, precision);
+      dsl::Diagnostics errors;
+      files.push_back({request.directory / name, mode == BoundMode::exact
+                                                     ? exact_header(program, options, name, errors)
+                                                     : staged_header(program, options, name, errors, weakening)});
+      add_new_errors(errors, diagnostics);
+    }
+  }
+  return files;
+}
+
 }  // namespace
 
 std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const std::vector<BoundMode>& modes,
@@ -60,6 +117,7 @@ std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const 
                                              Weakening weakening) {
   std::vector<BoundedProgram> result;
   for (const BoundMode mode : modes) {
+    if (!has_bounds(mode)) continue;
     for (const Precision precision : precisions) {
       BoundedProgram bounded{mode, precision, {}};
       dsl::Diagnostics errors;
@@ -79,6 +137,13 @@ std::vector<BoundMode> modes_of(const CompileRequest& request, const dsl::Progra
   dsl::Diagnostics errors;
   bounded_programs(program, {BoundMode::fixed}, request.precisions, errors);
   if (errors.has_errors()) std::erase(modes, BoundMode::fixed);
+  const auto& predicates = program.predicates;
+  const auto refused = [&](auto made) { return std::any_of(predicates.begin(), predicates.end(), made); };
+  dsl::Diagnostics ignored;
+  const auto no_exact = [&](const dsl::Predicate& p) { return !exact_program(p, ignored); };
+  const auto no_staged = [&](const dsl::Predicate& p) { return !staged_predicate(p, Precision::binary64, ignored); };
+  if (refused(no_exact)) std::erase(modes, BoundMode::exact);
+  if (refused(no_staged)) std::erase(modes, BoundMode::staged);
   return modes;
 }
 
@@ -104,13 +169,19 @@ std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl:
     files.push_back({request.directory / name,
                      validated_header(predicates, {source_name, hash, bounded.mode, bounded.precision}, name)});
   }
+  for (TextFile& file : exact_files(request, modes, program, {source_name, hash, BoundMode::exact, Precision::binary64},
+                                    stem, diagnostics, weakening)) {
+    files.push_back(std::move(file));
+  }
+  if (diagnostics.has_errors()) return std::nullopt;
   if (request.tests) {
     // The reference is the direct product scheme, whatever the generated code uses.
     dsl::SourceMap reference_sources;
     const dsl::Program reference = dsl::load_program(request.file, reference_sources, diagnostics, {});
     if (diagnostics.has_errors()) return std::nullopt;
-    const TestOptions options = {stem,  source_name,        hash,
-                                 modes, request.precisions, request.products == dsl::ProductScheme::direct};
+    TestOptions options = {stem, source_name,        hash,
+                           {},   request.precisions, request.products == dsl::ProductScheme::direct};
+    for (const BoundMode mode : modes) (has_bounds(mode) ? options.modes : options.exact_modes).push_back(mode);
     files.push_back({request.directory / (stem + ".test.cpp"), print_tests(reference, options)});
     files.push_back({request.directory / "CMakeLists.txt", print_test_project()});
   }

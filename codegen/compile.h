@@ -34,10 +34,12 @@ struct BoundedProgram {
   std::vector<BoundedPredicate> predicates;
 };
 
-/// The modes of the request, without `static` if they are to be applicable and it has no bound of some predicate.
+/// The modes of the request, without those that some predicate has no code for if they are to be applicable: `static`
+/// without ranges, `exact` and `staged` where they would be refused.
 std::vector<BoundMode> modes_of(const CompileRequest& request, const dsl::Program& program);
 
-/// Bounds of every predicate in every combination; an error that several combinations share is reported once.
+/// Bounds of every predicate in every combination whose mode has bounds (not `exact`, not `staged`); an error that
+/// several combinations share is reported once.
 std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const std::vector<BoundMode>& modes,
                                              const std::vector<Precision>& precisions, dsl::Diagnostics& diagnostics,
                                              Weakening weakening = Weakening::none);

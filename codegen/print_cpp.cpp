@@ -367,6 +367,10 @@ std::string print_header(std::span<const GeneratedPredicate> predicates, const H
          body + "\n}  // namespace tightrope::generated\nTIGHTROPE_PRECISE_END\n";
 }
 
+std::string print_predicate(const GeneratedPredicate& generated, const HeaderOptions& options) {
+  return PredicatePrinter(generated, options).print();
+}
+
 std::string header_name(const std::string& stem, BoundMode mode, Precision precision) {
   return fmt::format("{}.{}.{}.h", stem, name(mode), name(precision));
 }

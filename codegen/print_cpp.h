@@ -28,6 +28,9 @@ struct HeaderOptions {
 /// State, the function is inlined, and the caller's sum must not be fused with it either.
 std::string print_header(std::span<const GeneratedPredicate> predicates, const HeaderOptions& options);
 
+/// One predicate of a header: the declaration of its template and its specialisation for the mode.
+std::string print_predicate(const GeneratedPredicate& generated, const HeaderOptions& options);
+
 /// "vertex_face.tight.double.h"
 std::string header_name(const std::string& stem, BoundMode mode, Precision precision);
 

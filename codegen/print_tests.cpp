@@ -8,6 +8,7 @@
 
 #include "codegen/interface.h"
 #include "codegen/print_cpp.h"
+#include "codegen/print_exact_tests.h"
 #include "codegen/print_reference.h"
 
 namespace tightrope::codegen {
@@ -52,6 +53,7 @@ class TestPrinter {
 
   std::string print() {
     out_ = print_reference(predicate_, options_.same_products, budget_);
+    if (options_.modes.empty()) return std::move(out_);
     print_adapter("");
     if (has_range_) {
       print_adapter("_in_range");
@@ -230,7 +232,9 @@ std::string print_tests(const dsl::Program& reference, const TestOptions& option
       "#include <gtest/gtest.h>\n"
       "#include <tightrope/testing.h>\n\n",
       TIGHTROPE_VERSION, comment_text(options.source_name), options.source_hash);
-  for (const BoundMode mode : options.modes) {
+  std::vector<BoundMode> modes = options.modes;
+  modes.insert(modes.end(), options.exact_modes.begin(), options.exact_modes.end());
+  for (const BoundMode mode : modes) {
     for (const Precision precision : options.precisions) {
       text += fmt::format("#include \"{}\"\n", header_name(options.stem, mode, precision));
     }
@@ -241,7 +245,9 @@ std::string print_tests(const dsl::Program& reference, const TestOptions& option
       "void expect(const std::string& failure) { EXPECT_TRUE(failure.empty()) << failure; }\n";
   const std::size_t shares = reference.predicates.size() * options.precisions.size() * tests_of_one_predicate;
   const int budget = operation_budget / static_cast<int>(std::max<std::size_t>(1, shares));
-  for (const dsl::Predicate& predicate : reference.predicates) text += TestPrinter(predicate, options, budget).print();
+  for (const dsl::Predicate& predicate : reference.predicates) {
+    text += TestPrinter(predicate, options, budget).print() + print_exact_tests(predicate, options);
+  }
   return text + "\n}  // namespace\n}  // namespace tightrope::testing\n";
 }
 

@@ -14,10 +14,11 @@ struct TestOptions {
   std::string stem;         ///< the headers are STEM.BOUND.REAL.h
   std::string source_name;  ///< of the .pred file, no folder
   std::uint64_t source_hash = 0;
-  std::vector<BoundMode> modes;
+  std::vector<BoundMode> modes;  ///< those with bounds
   std::vector<Precision> precisions;
   /// The generated values are those of the reference, operation by operation (false under --products karatsuba).
   bool same_products = true;
+  std::vector<BoundMode> exact_modes = {};  ///< `exact`, `staged`
 };
 
 /// Tests of every header of the options against `reference`, the program lowered with direct products and not

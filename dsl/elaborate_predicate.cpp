@@ -314,10 +314,10 @@ bool PredicateElaborator::name_output(const Statement& s, const std::string& sta
   return true;
 }
 
-/// Generated code makes `stage_result` and `stage_in_range` of a stage's name.
+/// Generated code makes `stage_result`, `stage_in_range` and others of a stage's name.
 void PredicateElaborator::check_stages() {
   for (const Stage& s : result_.stages) {
-    for (const char* suffix : {"_result", "_in_range"}) {
+    for (const char* suffix : {"_result", "_in_range", "_signs", "_values", "_values_result", "_finish"}) {
       const auto clash = stage_spans_.find(s.name + suffix);
       if (clash == stage_spans_.end()) continue;
       reporter_.error(clash->second, fmt::format("a stage cannot be called `{}`: generated code uses the name for `{}`",

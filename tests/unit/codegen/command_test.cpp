@@ -70,9 +70,10 @@ TEST(Command, CompileWritesOneHeaderForEveryBoundAndScalarType) {
             (std::vector<std::string>{"orient2d.float.float.h", "orient2d.safe.float.h"}));
   EXPECT_EQ(tightrope(folder, "compile orient2d.pred --bound all --real all --tests -o all").status, 0);
   EXPECT_EQ(files_in(folder.path() / "all"),
-            (std::vector<std::string>{"CMakeLists.txt", "orient2d.float.double.h", "orient2d.float.float.h",
-                                      "orient2d.interval.double.h", "orient2d.interval.float.h",
-                                      "orient2d.safe.double.h", "orient2d.safe.float.h", "orient2d.test.cpp",
+            (std::vector<std::string>{"CMakeLists.txt", "orient2d.exact.double.h", "orient2d.exact.float.h",
+                                      "orient2d.float.double.h", "orient2d.float.float.h", "orient2d.interval.double.h",
+                                      "orient2d.interval.float.h", "orient2d.safe.double.h", "orient2d.safe.float.h",
+                                      "orient2d.staged.double.h", "orient2d.staged.float.h", "orient2d.test.cpp",
                                       "orient2d.tight.double.h", "orient2d.tight.float.h"}));
   // `all` has mode `static` where it applies.
   folder.write("ranged.pred", "predicate ranged(scalar x, y) { range |x, y| <= 1 sign x - y as s }\n");
@@ -136,7 +137,8 @@ TEST(Command, BadUsageIsOneClearLineAndStatus2) {
   folder.write("file", "in the way\n");
   const BadUsage table[] = {
       {"compile orient2d.pred --bound ball -o out",
-       "tightrope: error: --bound: unknown value 'ball' (accepted: float, safe, tight, static, interval, all)"},
+       "tightrope: error: --bound: unknown value 'ball' (accepted: float, safe, tight, static, interval, exact, "
+       "staged, all)"},
       {"compile orient2d.pred --real half -o out",
        "tightrope: error: --real: unknown value 'half' (accepted: double, float, all)"},
       {"compile orient2d.pred --products fast -o out",
