@@ -9,8 +9,8 @@
 
 #include "command/measurement.h"
 #include "command/progress.h"
-#include "scenes/single_precision.h"
 #include "query_io/query_files.h"
+#include "scenes/single_precision.h"
 #include "scenes/truth.h"
 
 namespace tightrope::ccd {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "query_io/query_files.h"
@@ -15,7 +17,7 @@ using nlohmann::json;
 
 TEST(Command, HelpAndVersionAreAnswersNotErrors) {
   const ScratchDirectory scratch;
-  for (const std::string command : {"methods", "evaluate", "classify", "generate"}) {
+  for (const std::string command : {"methods", "evaluate", "classify", "generate", "exact"}) {
     const Outcome help = run_command(scratch, {command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_EQ(help.err, "") << command;
@@ -40,7 +42,7 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
     std::vector<std::string> arguments;
     std::string message;
   };
-  const std::string commands = "commands: methods, evaluate, classify, generate";
+  const std::string commands = "commands: methods, evaluate, classify, generate, exact";
   const std::string methods = "bsc-float, bsc-safe, tight";
   const BadUsage cases[] = {
       {{}, "A subcommand is required; " + commands},
@@ -57,6 +59,7 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
       {{"evaluate", "--kind", "face-face", "x"}, "--kind: face-face not in {vertex-face,edge-edge}"},
       {{"classify", "--method", "all", "x"}, "unknown method 'all'; accepted: " + methods},
       {{"classify", "x"}, "--method is required"},
+      {{"exact", "--width", "0", "x"}, "--width must be positive"},
       {{"methods", "--format", "csv"}, "--format: csv not in {table,json}"},
       {{"generate", "random", "-o", "x", "--queries", "0"}, "--queries must be from 1 to 1000000000"},
       {{"generate", "random"}, "--output is required"},
@@ -82,6 +85,35 @@ TEST(Command, WhatIsNotOfferedYetIsRejected) {
     EXPECT_EQ(outcome.status, 2) << option;
     EXPECT_NE(outcome.err.find(option), std::string::npos) << outcome.err;
   }
+}
+
+TEST(Command, ExactTellsTheTimeOfFirstContact) {
+  const ScratchDirectory scratch;
+  const std::string face = ",0,0,0,4,0,0,0,4,0";
+  const std::string file = scratch.write("vertex-face.csv", "1,1,1" + face + ",1,1,-2" + face + "\n" +     // 1 - 3t
+                                                                "1,1,2" + face + ",1,1,1" + face + "\n" +  // above
+                                                                "1,0,-1" + face + ",1,1,-1,0,0,0,4,0,0,0,4,-8\n");
+  const Outcome outcome = run_command(scratch, {"exact", "--width", "0.25", file});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.substr(0, 9), "1/3\nnone\n");
+  double lower = 0, lower_den = 0, upper = 0, upper_den = 0;  // 2 t^2 = 1
+  ASSERT_EQ(std::sscanf(outcome.out.c_str() + 9, "%lf/%lf %lf/%lf", &lower, &lower_den, &upper, &upper_den), 4);
+  EXPECT_LT(lower / lower_den, std::sqrt(0.5));
+  EXPECT_GT(upper / upper_den, std::sqrt(0.5));
+  EXPECT_LE(upper / upper_den - lower / lower_den, 0.25);
+}
+
+TEST(Command, GenerateListsScenesForScripts) {
+  const ScratchDirectory scratch;
+  std::string all, survey;
+  for (const SceneInfo& scene : scenes()) {
+    all += std::string(scene.name) + "\n";
+    if (scene.survey && scene.scene != Scene::degenerate_families) survey += std::string(scene.name) + "\n";
+  }
+  EXPECT_EQ(run_command(scratch, {"generate", "--list", "all"}).out, all);
+  const Outcome outcome = run_command(scratch, {"generate", "--list", "degenerate-families"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, survey);
 }
 
 TEST(Command, MethodsListsAllOfThem) {
