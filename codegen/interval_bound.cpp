@@ -27,7 +27,6 @@ class IntervalBounds {
   IntervalBounds(const dsl::Predicate& predicate, const FloatFormat& format, Weakening weakening,
                  dsl::Diagnostics& diagnostics, Graph& graph)
       : predicate_(predicate),
-        format_(format),
         weakening_(weakening),
         diagnostics_(diagnostics),
         reporters_(outputs_of_nodes(predicate)),
@@ -65,7 +64,6 @@ class IntervalBounds {
   bool weakened(Weakening w) const { return weakening_ == w; }
 
   const dsl::Predicate& predicate_;
-  const FloatFormat& format_;
   Weakening weakening_;
   dsl::Diagnostics& diagnostics_;
   std::vector<const dsl::Output*> reporters_;
