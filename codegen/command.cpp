@@ -12,6 +12,7 @@
 #include "codegen/certify.h"
 #include "codegen/compile.h"
 #include "codegen/gappa.h"
+#include "codegen/import_command.h"
 #include "codegen/print_tests.h"
 #include "codegen/report.h"
 
@@ -301,6 +302,11 @@ int run_command(int argc, const char* const* argv) {
   certify.callback([&] {
     if (certify.count("--bound") == 0) arguments.bound = "static,safe";
     run = run_certify;
+  });
+
+  ImportArguments import_arguments;
+  add_import_command(app, import_arguments).callback([&] {
+    run = [&](const Arguments&) { return run_import(import_arguments); };
   });
 
   try {

@@ -295,7 +295,7 @@ std::string validate(const std::string& text, const std::string& file_name,
                      std::span<const AnalysedPredicate> predicates, BoundMode mode, Precision precision) {
   if (std::string found = foreign_directive(text, file_name); !found.empty()) return found;
   const ParsedCode code = parse_generated(text, file_name);
-  if (!code.errors.empty()) return fmt::format("{} is not accepted by the compiler: {}", file_name, code.errors);
+  if (!code.errors.empty()) return fmt::format("{} is not accepted by the compiler:\n{}", file_name, code.errors);
   const clang::ASTContext& context = code.unit->getASTContext();
   try {
     validate_unit(context, predicates, mode, precision);
