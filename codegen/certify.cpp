@@ -53,6 +53,21 @@ std::vector<double> bounds_at_corners(const dsl::Predicate& predicate, const Bou
   return result;
 }
 
+/// Whether a quotient by a run-time value or a root is on the way to `value`: SafeBound then has a run-time bound of
+/// its own there, which is not largest at the corners of the box.
+bool has_guard(const dsl::Graph& graph, dsl::NodeId value) {
+  std::vector<bool> guarded;
+  for (dsl::NodeId id = 0; id <= value; ++id) {
+    const dsl::Node& n = graph[id];
+    bool result = n.op == dsl::Op::certain_nonzero || n.op == dsl::Op::certain_nonnegative;
+    for (const dsl::NodeId operand : {n.a, n.b, n.c}) {
+      result = result || (operand != dsl::no_node && guarded[static_cast<std::size_t>(operand)]);
+    }
+    guarded.push_back(result);
+  }
+  return guarded[static_cast<std::size_t>(value)];
+}
+
 std::string without_comments(const std::string& script) {
   std::stringstream lines(script);
   std::string result;
@@ -123,7 +138,8 @@ std::string Certifier::certify_element(const dsl::Predicate& predicate, const Bo
                               name(c.mode), name(c.precision), c.bound / unit, u, TIGHTROPE_VERSION);
   // The rules' own bound is one that Gappa can follow: that is the claim; the sharper one is compared with its answer.
   claim.bounds = {c.rules_bound};
-  const auto script = gappa_script(predicate, bounded.graph, claim, c.precision);
+  auto script = gappa_script(predicate, bounded.graph, claim, c.precision);
+  if (c.mode == BoundMode::safe && has_guard(bounded.graph, value)) script.reset();
   if (script) {
     const auto path = request_.directory / fmt::format("{}.{}.{}.g", c.output, name(c.mode), name(c.precision));
     const std::vector<TextFile> files = {{path, *script}};
@@ -174,7 +190,7 @@ std::string verdict_text(const Certificate& c, double unit) {
     case Verdict::failed:
       return "Gappa refuses the script";
     case Verdict::no_script:
-      return "an operation that Gappa does not know";
+      return "no script: min, max, or SafeBound behind / or sqrt";
     case Verdict::not_run:
       return "not run";
   }

@@ -28,7 +28,7 @@ struct Certificate {
     not_proved,
     timed_out,
     failed,     ///< Gappa refuses the script
-    no_script,  ///< an operation that Gappa does not know
+    no_script,  ///< an operation that Gappa does not know, or SafeBound behind a quotient or a root
     not_run,
   } verdict = Verdict::not_run;
   std::string output;  ///< "orient2d.evaluate.side[0]"
