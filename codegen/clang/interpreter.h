@@ -16,6 +16,14 @@
 
 namespace tightrope::codegen {
 
+/// `e` without what stands for nothing: parentheses, temporaries, defaults, template arguments.
+const clang::Expr* plain(const clang::Expr* e);
+
+inline bool is_real(const clang::Expr* e) { return e->getType()->isRealFloatingType(); }
+
+inline constexpr const char* branch_on_data =
+    "a branch on a computed number: a predicate is straight-line (return the number whose sign decides)";
+
 /// Evaluates the way C++ does, with numbers in place of values: every floating-point operation becomes a node, rounded
 /// as the code rounds it; whole numbers, conditions, pointers and calls are carried out. Throws an ImportError at the
 /// first thing that this is impossible for.
@@ -70,7 +78,7 @@ class Interpreter {
   void construct(Place place, const clang::CXXConstructExpr* expression);
   void count_step(clang::SourceLocation where);
 
-  // interpreter_expression.cpp
+  // interpreter_expression.cpp: places, loads and stores; interpreter_operator.cpp: conversions and operators
   Value evaluate(const clang::Expr* expression);
   Place evaluate_place(const clang::Expr* expression);
   Place global_constant(const clang::VarDecl* variable, clang::SourceLocation where);
