@@ -90,6 +90,7 @@ struct Arguments {
   double time_limit = 60;
   double assumed_range = 1;
   std::optional<double> report_range;
+  bool fma = false;
   bool tests = false;
   bool measure = false;
 };
@@ -124,6 +125,7 @@ std::string interpret(const Arguments& arguments, CompileRequest& request) {
   if (products.size() != 1) return "--products: give one value, direct or karatsuba";
   request.products = products.front();
   selected<bool>("--target", arguments.target, {{"cpp", {true}}}, error);
+  request.fma = arguments.fma;
   request.tests = arguments.tests;
   request.directory = arguments.directory;
   request.depfile = arguments.depfile;
@@ -189,7 +191,7 @@ int run_report(const Arguments& arguments) {
   }
   dsl::SourceMap sources;
   dsl::Diagnostics diagnostics;
-  dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
+  dsl::Program program = load(request, sources, diagnostics);
   if (diagnostics.has_errors()) return program_error(diagnostics, sources);
   if (arguments.report_range) {
     if (!(*arguments.report_range > 0)) return usage_error("--assume-range takes a positive number");
@@ -254,6 +256,7 @@ void add_program_options(CLI::App& command, Arguments& arguments) {
       .add_option("--products", arguments.products,
                   "how products of polynomials are computed: direct, or karatsuba (fewer multiplications)")
       ->capture_default_str();
+  command.add_flag("--fma", arguments.fma, "contract products into sums: for hardware with fused multiply-add");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "codegen/clang/format.h"
 #include "codegen/clang/validate.h"
+#include "codegen/fuse.h"
 #include "codegen/hash.h"
 #include "codegen/print_cpp.h"
 #include "codegen/print_exact.h"
@@ -112,6 +113,14 @@ std::vector<TextFile> exact_files(const CompileRequest& request, const std::vect
 
 }  // namespace
 
+dsl::Program load(const CompileRequest& request, dsl::SourceMap& sources, dsl::Diagnostics& diagnostics) {
+  dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
+  if (request.fma && !diagnostics.has_errors()) {
+    for (dsl::Predicate& predicate : program.predicates) predicate = contract_products(predicate);
+  }
+  return program;
+}
+
 std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const std::vector<BoundMode>& modes,
                                              const std::vector<Precision>& precisions, dsl::Diagnostics& diagnostics,
                                              Weakening weakening) {
@@ -149,7 +158,7 @@ std::vector<BoundMode> modes_of(const CompileRequest& request, const dsl::Progra
 
 std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl::SourceMap& sources,
                                              dsl::Diagnostics& diagnostics, Weakening weakening) {
-  const dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
+  const dsl::Program program = load(request, sources, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   const std::vector<BoundMode> modes = modes_of(request, program);
   const std::vector<BoundedProgram> programs =
@@ -166,24 +175,28 @@ std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl:
       predicates.push_back({&program.predicates[i], &bounded.predicates[i]});
     }
     const std::string name = header_name(stem, bounded.mode, bounded.precision);
-    files.push_back({request.directory / name,
-                     validated_header(predicates, {source_name, hash, bounded.mode, bounded.precision}, name)});
+    files.push_back(
+        {request.directory / name,
+         validated_header(predicates, {source_name, hash, bounded.mode, bounded.precision, request.fma}, name)});
   }
-  for (TextFile& file : exact_files(request, modes, program, {source_name, hash, BoundMode::exact, Precision::binary64},
+  // Exact answers know no rounding: their filters stay unfused.
+  const dsl::Program unfused =
+      request.fma ? dsl::load_program(request.file, sources, diagnostics, {.products = request.products}) : program;
+  for (TextFile& file : exact_files(request, modes, unfused, {source_name, hash, BoundMode::exact, Precision::binary64},
                                     stem, diagnostics, weakening)) {
     files.push_back(std::move(file));
   }
   if (diagnostics.has_errors()) return std::nullopt;
   if (request.tests) {
-    // The reference is the direct product scheme, whatever the generated code uses.
+    // The reference is the direct product scheme, unfused, whatever the generated code uses.
     dsl::SourceMap reference_sources;
     const dsl::Program reference = dsl::load_program(request.file, reference_sources, diagnostics, {});
     if (diagnostics.has_errors()) return std::nullopt;
     TestOptions options = {stem, source_name,        hash,
-                           {},   request.precisions, request.products == dsl::ProductScheme::direct};
+                           {},   request.precisions, request.products == dsl::ProductScheme::direct && !request.fma};
     for (const BoundMode mode : modes) (has_bounds(mode) ? options.modes : options.exact_modes).push_back(mode);
     files.push_back({request.directory / (stem + ".test.cpp"), print_tests(reference, options)});
-    files.push_back({request.directory / "CMakeLists.txt", print_test_project()});
+    files.push_back({request.directory / "CMakeLists.txt", print_test_project(request.fma)});
   }
   if (!request.depfile.empty()) {
     std::vector<std::string> targets;

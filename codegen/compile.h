@@ -17,6 +17,7 @@ struct CompileRequest {
   std::vector<Precision> precisions = {Precision::binary64};
   dsl::ProductScheme products = dsl::ProductScheme::direct;
   bool only_applicable_modes = false;  ///< leave out `static` where the predicates do not admit it
+  bool fma = false;                    ///< contract products into sums (codegen/fuse.h)
   bool tests = false;
   std::filesystem::path directory = ".";
   std::string depfile;  ///< empty: none
@@ -33,6 +34,9 @@ struct BoundedProgram {
   Precision precision = Precision::binary64;
   std::vector<BoundedPredicate> predicates;
 };
+
+/// The program of the request, its products contracted if that is asked for.
+dsl::Program load(const CompileRequest& request, dsl::SourceMap& sources, dsl::Diagnostics& diagnostics);
 
 /// The modes of the request, without those that some predicate has no code for if they are to be applicable: `static`
 /// without ranges, `exact` and `staged` where they would be refused.

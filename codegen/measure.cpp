@@ -1,6 +1,6 @@
 #include "codegen/measure.h"
 
-#include <tightrope/exact.h>
+#include <tightrope/enclosure.h>
 
 #include <algorithm>
 #include <bit>
@@ -123,15 +123,16 @@ double quantile(std::vector<double>& sorted, double q) {
   return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
 }
 
-void add_sample(Collected& collected, double value, double bound, const DyadicRatio& exact, double published,
+void add_sample(Collected& collected, double value, double bound, const Enclosure& exact, double published,
                 double published_floor) {
   OutputMeasure& m = collected.measure;
   ++m.samples;
-  if (!std::isfinite(value) || !std::isfinite(bound)) {
+  if (exact.is_undefined() && std::abs(value) > bound) m.sound = false;
+  if (!std::isfinite(value) || !std::isfinite(bound) || !exact.is_number()) {
     ++m.not_finite;
     return;
   }
-  const DyadicRatio error = abs(DyadicRatio(value) - exact);
+  const DyadicRatio error = abs(Enclosure(value) - exact).lower();
   const DyadicRatio margin = DyadicRatio(bound) - error;
   if (margin.sign() < 0) m.sound = false;
   m.least_margin = m.samples - m.not_finite == 1 ? margin.to_double() : std::min(m.least_margin, margin.to_double());
@@ -168,9 +169,9 @@ std::vector<StageMeasure> measure_real(const dsl::Predicate& predicate, const Bo
   for (const dsl::Stage& stage : predicate.stages) collected.emplace_back(stage.outputs.size());
   for (int n = 0; n < samples; ++n) {
     const std::vector<Real> slots = draw<Real>(predicate, sampling, random);
-    std::vector<DyadicRatio> exact_slots;
+    std::vector<Enclosure> exact_slots;
     for (const Real x : slots) exact_slots.emplace_back(static_cast<double>(x));
-    const auto exact = dsl::evaluate<DyadicRatio>(predicate.graph, exact_slots);
+    const auto exact = dsl::evaluate<Enclosure>(predicate.graph, exact_slots);
     const auto v = dsl::evaluate<Real>(bounded.graph, slots);
     const auto published = published_bounds<Real>(bounded.graph, v, slots, inputs);
     for (std::size_t s = 0; s < collected.size(); ++s) {

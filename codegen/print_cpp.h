@@ -20,6 +20,7 @@ struct HeaderOptions {
   std::uint64_t source_hash = 0;  ///< of the file and its imports
   BoundMode mode = BoundMode::tight;
   Precision precision = Precision::binary64;
+  bool fma = false;  ///< the products were contracted (codegen/fuse.h)
 };
 
 /// The whole header, FILE.BOUND.REAL.h. Deterministic byte for byte; compiles without warnings.

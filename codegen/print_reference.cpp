@@ -47,10 +47,11 @@ std::string call(const Node& node, const std::vector<int>& line) {
       return fmt::format("min({}, {})", at(node.a), at(node.b));
     case Op::max:
       return fmt::format("max({}, {})", at(node.a), at(node.b));
+    case Op::fma:
+      return fmt::format("fma({}, {}, {})", at(node.a), at(node.b), at(node.c));
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
     case Op::max_magnitude:
-    case Op::fma:
       break;
   }
   assert(false && "lowered predicates hold no operations of bounds");

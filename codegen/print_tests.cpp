@@ -251,7 +251,19 @@ std::string print_tests(const dsl::Program& reference, const TestOptions& option
   return text + "\n}  // namespace\n}  // namespace tightrope::testing\n";
 }
 
-std::string print_test_project() {
+std::string print_test_project(bool fma) {
+  constexpr std::string_view fma_options = R"(
+# The code was made with --fma: in hardware where this machine has it, else in software.
+include(CheckCXXSourceRuns)
+set(CMAKE_REQUIRED_FLAGS -mfma)
+check_cxx_source_runs("int main(int n, char**) { return __builtin_fma(n, 2.0, -2.0 * n) == 0 ? 0 : 1; }" HAS_FMA)
+unset(CMAKE_REQUIRED_FLAGS)
+if(HAS_FMA)
+  add_compile_options(-mfma)
+else()
+  add_compile_definitions(TIGHTROPE_SOFTWARE_FMA)
+endif()
+)";
   return fmt::format(R"({} {}. Builds and runs the generated tests of this folder:
 #   cmake -S . -B build && cmake --build build && ctest --test-dir build
 cmake_minimum_required(VERSION 3.20)
@@ -271,6 +283,7 @@ else()
   add_library(tightrope_headers ALIAS tightrope::runtime)
 endif()
 
+{}
 enable_testing()
 include(GoogleTest)
 file(GLOB tests CONFIGURE_DEPENDS "${{CMAKE_CURRENT_SOURCE_DIR}}/*.test.cpp")
@@ -283,7 +296,7 @@ foreach(test IN LISTS tests)
   gtest_discover_tests(${{target}} TEST_PREFIX ${{target}}. DISCOVERY_TIMEOUT 60)
 endforeach()
 )",
-                     project_mark, TIGHTROPE_VERSION, include_directory());
+                     project_mark, TIGHTROPE_VERSION, include_directory(), fma ? fma_options : "");
 }
 
 }  // namespace tightrope::codegen

@@ -14,7 +14,7 @@ NodeId total(const QuotientContext& c, NodeId operands, NodeId value, bool round
   NodeId bound = operands == no_node ? no_node : c.r.times_constant(operands, inflation);
   if (rounding) bound = c.r.plus(bound, c.r.times_constant(c.r.magnitude(value), c.unit * inflation));
   if (etas > 0 && c.weakening != Weakening::drop_underflow) bound = c.r.plus(bound, c.r.constant(etas * c.format.eta));
-  return bound;
+  return bound == no_node ? c.r.constant(0) : bound;  // nothing is left only in a weakened rule
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 ///     sum           B = Ba + Bb, k = max(ka, kb) + 1
 ///     product       B = Ba Bb,   k = ka + kb + 1
 ///     quotient      B = Ba / |c|, k = ka + 1 (c an exact constant)
+///     fma           B = Ba Bb + Bc, k = max(ka + kb, kc) + 1
 ///     max, min      B = max(Ba, Bb), k = max(ka, kb);   negation, |.|, 2^k: exact
 ///
 /// Proof by induction; product: |f^ g^ - f g| <= |f^| |g^ - g| + |g| |f^ - f| <= Bf Bg (Ff (Fg - 1) + Ff - 1), and a
@@ -17,6 +18,10 @@
 /// *Bounded inputs* come as (value, bound). Of their group, B = max(|value| + bound) and rho = max(bound) / B: each
 /// such input brings a factor 1 + rho into F as a rounding brings 1 + u, so a value of degree d in the group has F = (1
 /// + u)^k (1 + rho)^d. F - 1 <= F ln F <= F (k u + d rho) for all rho >= 0, which is what is evaluated.
+///
+/// *Quotients and roots* by run-time values have no (B, k) from maxima: a quotient may be as large as its divisor is
+/// small. Each is a leaf, as a bounded input of its own is: its value, and the run-time bound that follows from the
+/// bounds of its operands (quotient_bound.h).
 ///
 /// *Underflow* (A). With m = max(1, all maxima), B <= S m^d and A <= C eta m^p: a product adds (Sf Cg + Sg Cf + 1) to
 /// C. Where all inputs have a declared range, A is a compile-time constant, as in lemma C of tight_bound.h.

@@ -5,10 +5,12 @@
 ///
 ///     sum        R = Ra + Rb + u |L|
 ///     product    R = |La| Rb + Ra (|Lb| + Rb) + u |L|         (+ underflow)
+///     fma        R = |La| Rb + Ra (|Lb| + Rb) + Rc + u |L|    (+ underflow)
 ///     quotient   R = Ra / |c| + u |L|                         (+ underflow), c an exact constant
+///     quotient, root by run-time values: tight_quotients.cpp
 ///     max, min   R = max(Ra, Rb);   negation, |.|, 2^k: exact
 ///
-/// Three things are done here at compile time instead of at run time:
+/// Four things are done here at compile time instead of at run time:
 ///
 /// * Lemma A (one factor for all). Every term of R carries exactly one leading u, so R = u+ r, and r is what is
 /// computed:
@@ -24,6 +26,9 @@
 ///   the underflow of a product (at most eta), amplified by later factors (at most M), adds up to one constant, the
 ///   floor, of which every output gets its share. Without ranges each product, quotient and scaling downwards carries 4
 ///   eta.
+///
+/// * Lemma D (sums of non-negative numbers). Where La, Lb >= 0 whatever the inputs, relative errors pa, pb make the
+///   relative error max(pa, pb) + 1 of their sum: a sum of squares has no run-time term but itself.
 ///
 /// Slack (MATH 4.3). r is built from non-negative numbers by + * and max, so a computed r is at least (1 - u)^D times
 /// the real one, D = dependent roundings; lemmas A and B use up m factors (1 + u). Both are paid by u+ = u (1 + slack):

@@ -84,6 +84,11 @@ Value apply_rounded(ExpressionElaborator& e, const Expr& call, Arguments a) {
   return c.is_number() ? a[0] : scalar(run_time(materialise(e.lowering(), c)));
 }
 
+Value apply_fma(ExpressionElaborator& e, const Expr& call, Arguments a) {
+  if (!are_plain_scalars(a)) return refuse(e, call, a, "it takes three scalars of degree 0");
+  return scalar(fused(e.lowering(), coefficient(a[0]), coefficient(a[1]), coefficient(a[2])));
+}
+
 Value apply_extremum(ExpressionElaborator& e, const Expr& call, Arguments a) {
   std::vector<Value> elements(a.begin(), a.end());
   if (a.size() == 1 && a[0].extents.size() == 1) {
@@ -175,7 +180,7 @@ Value apply_vector(ExpressionElaborator& e, const Expr& call, Arguments a) {
   return {.extents = {}, .elements = {std::move(p)}};
 }
 
-constexpr std::array<Builtin, 16> table = {{
+constexpr std::array<Builtin, 17> table = {{
     {"abs", 1, 1, apply_abs},
     {"bernstein", 1, 1, apply_bernstein},
     {"coefficients", 1, 1, apply_coefficients},
@@ -184,6 +189,7 @@ constexpr std::array<Builtin, 16> table = {{
     {"diff", 1, 1, apply_diff},
     {"dot", 2, 2, apply_dot},
     {"elevate", 2, 2, apply_elevate},
+    {"fma", 3, 3, apply_fma},
     {"max", 1, -1, apply_extremum},
     {"min", 1, -1, apply_extremum},
     {"rounded", 1, 1, apply_rounded},

@@ -305,6 +305,11 @@ Coefficient square_root(Lowering& low, const Coefficient& a) {
   return run_time(low.graph.unary(Op::sqrt, materialise(low, a)));
 }
 
+Coefficient fused(Lowering& low, const Coefficient& a, const Coefficient& b, const Coefficient& c) {
+  if (a.is_number() && b.is_number()) return add(low, multiply(low, a, b), c);
+  return run_time(low.graph.fma(materialise(low, a), materialise(low, b), materialise(low, c)));
+}
+
 Coefficient minimum_or_maximum(Lowering& low, Op op, const Coefficient& a, const Coefficient& b) {
   assert(op == Op::min || op == Op::max);
   if (a.is_number() && b.is_number()) {

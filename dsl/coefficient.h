@@ -54,6 +54,8 @@ Coefficient complement(Lowering& low, const Coefficient& a, const Coefficient& b
 Coefficient abs(Lowering& low, const Coefficient& a);
 /// a is not a negative number.
 Coefficient square_root(Lowering& low, const Coefficient& a);
+/// a * b + c, rounded once; a product of two numbers is one.
+Coefficient fused(Lowering& low, const Coefficient& a, const Coefficient& b, const Coefficient& c);
 Coefficient minimum_or_maximum(Lowering& low, Op op, const Coefficient& a, const Coefficient& b);
 
 /// The node that computes `a`: at most one rounding for a factor p/1 or 1/q, two for p/q, none for powers of two.

@@ -21,8 +21,8 @@ class Enclosure {
   Enclosure() = default;  ///< zero
   explicit Enclosure(double value) : Enclosure(DyadicRatio(value)) {}
   /// Exact numbers are enclosures: implicit. Of one with very many bits (nested quotients) only the first are kept.
-  Enclosure(DyadicRatio value) : lower_(std::move(value)), upper_(lower_) {
-    if (bits(lower_.numerator()) + bits(lower_.denominator()) > most_bits) *this = {lower_, upper_, true};
+  Enclosure(DyadicRatio value) : lower_(std::move(value)) {
+    if (bits(lower_.numerator()) + bits(lower_.denominator()) > most_bits) *this = rounded(lower_, lower_);
   }
 
   static Enclosure undefined() { return Enclosure(State::undefined); }
@@ -30,16 +30,21 @@ class Enclosure {
 
   bool is_number() const { return state_ == State::number; }
   bool is_undefined() const { return state_ == State::undefined; }
-  bool is_exact() const { return is_number() && lower_ == upper_; }
+  bool is_exact() const { return is_number() && exact_; }
   const DyadicRatio& lower() const { return lower_; }
-  const DyadicRatio& upper() const { return upper_; }
+  const DyadicRatio& upper() const { return exact_ ? lower_ : upper_; }
   /// The sign if it is known, else 0 (also of an exact 0).
-  int sign() const { return lower_.sign() > 0 ? 1 : upper_.sign() < 0 ? -1 : 0; }
+  int sign() const { return lower_.sign() > 0 ? 1 : upper().sign() < 0 ? -1 : 0; }
   double to_double() const { return lower_.to_double(); }
 
-  Enclosure operator-() const { return is_number() ? Enclosure(-upper_, -lower_) : *this; }
+  Enclosure operator-() const {
+    if (!is_number()) return *this;
+    return exact_ ? Enclosure(-lower_) : Enclosure(-upper_, -lower_);
+  }
   friend Enclosure operator+(const Enclosure& a, const Enclosure& b) {
-    return both(a, b) ? Enclosure(a.lower_ + b.lower_, a.upper_ + b.upper_) : neither(a, b);
+    if (!both(a, b)) return neither(a, b);
+    if (a.exact_ && b.exact_) return a.lower_ + b.lower_;
+    return {a.lower_ + b.lower_, a.upper() + b.upper()};
   }
   friend Enclosure operator-(const Enclosure& a, const Enclosure& b) { return a + -b; }
   friend Enclosure operator*(const Enclosure& a, const Enclosure& b);
@@ -47,16 +52,19 @@ class Enclosure {
 
   friend Enclosure abs(const Enclosure& a) {
     if (!a.is_number() || a.lower_.sign() >= 0) return a;
-    if (a.upper_.sign() <= 0) return -a;
-    return {DyadicRatio(), tightrope::max(-a.lower_, a.upper_)};
+    if (a.upper().sign() <= 0) return -a;
+    return {DyadicRatio(), tightrope::max(-a.lower_, a.upper())};
   }
   friend Enclosure min(const Enclosure& a, const Enclosure& b) {
-    return both(a, b) ? Enclosure(tightrope::min(a.lower_, b.lower_), tightrope::min(a.upper_, b.upper_))
-                      : neither(a, b);
+    if (!both(a, b)) return neither(a, b);
+    if (a.exact_ && b.exact_) return tightrope::min(a.lower_, b.lower_);
+    return {tightrope::min(a.lower_, b.lower_), tightrope::min(a.upper(), b.upper())};
   }
   friend Enclosure max(const Enclosure& a, const Enclosure& b) { return -min(-a, -b); }
   friend Enclosure mul_pow2(const Enclosure& a, std::int64_t exponent) {
-    return a.is_number() ? Enclosure(mul_pow2(a.lower_, exponent), mul_pow2(a.upper_, exponent)) : a;
+    if (!a.is_number()) return a;
+    if (a.exact_) return mul_pow2(a.lower_, exponent);
+    return {mul_pow2(a.lower_, exponent), mul_pow2(a.upper_, exponent)};
   }
   friend Enclosure fma(const Enclosure& a, const Enclosure& b, const Enclosure& c) { return a * b + c; }
   friend Enclosure sqrt(const Enclosure& a);
@@ -65,11 +73,19 @@ class Enclosure {
   enum class State : unsigned char { number, undefined, unknown };
 
   explicit Enclosure(State state) : state_(state) {}
-  Enclosure(DyadicRatio lower, DyadicRatio upper, bool round_exact = false)
-      : lower_(std::move(lower)), upper_(std::move(upper)) {
-    if (!round_exact && lower_ == upper_) return;
-    lower_ = rounded_down(lower_);
-    upper_ = -rounded_down(-upper_);
+  Enclosure(const DyadicRatio& lower, const DyadicRatio& upper) {
+    if (lower == upper) {
+      lower_ = lower;
+    } else {
+      *this = rounded(lower, upper);
+    }
+  }
+  static Enclosure rounded(const DyadicRatio& lower, const DyadicRatio& upper) {
+    Enclosure e;
+    e.lower_ = rounded_down(lower);
+    e.upper_ = -rounded_down(-upper);
+    e.exact_ = false;
+    return e;
   }
   static bool both(const Enclosure& a, const Enclosure& b) { return a.is_number() && b.is_number(); }
   static Enclosure neither(const Enclosure& a, const Enclosure& b) {
@@ -82,14 +98,15 @@ class Enclosure {
   static constexpr std::int64_t most_bits = 20000;
 
   State state_ = State::number;
+  bool exact_ = true;
   DyadicRatio lower_;
-  DyadicRatio upper_;
+  DyadicRatio upper_;  ///< unless exact
 };
 
 inline Enclosure operator*(const Enclosure& a, const Enclosure& b) {
   if (!Enclosure::both(a, b)) return Enclosure::neither(a, b);
   if (a.is_exact() && b.is_exact()) return a.lower_ * b.lower_;
-  const DyadicRatio ends[] = {a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_, a.upper_ * b.upper_};
+  const DyadicRatio ends[] = {a.lower_ * b.lower_, a.lower_ * b.upper(), a.upper() * b.lower_, a.upper() * b.upper()};
   const auto [least, most] = std::minmax_element(std::begin(ends), std::end(ends));
   return {*least, *most};
 }
@@ -99,7 +116,7 @@ inline Enclosure operator/(const Enclosure& a, const Enclosure& b) {
   if (b.is_exact() && b.lower_.sign() == 0) return Enclosure::undefined();
   if (b.sign() == 0) return Enclosure::unknown();
   if (a.is_exact() && b.is_exact()) return a.lower_ / b.lower_;
-  const DyadicRatio ends[] = {a.lower_ / b.lower_, a.lower_ / b.upper_, a.upper_ / b.lower_, a.upper_ / b.upper_};
+  const DyadicRatio ends[] = {a.lower_ / b.lower_, a.lower_ / b.upper(), a.upper() / b.lower_, a.upper() / b.upper()};
   const auto [least, most] = std::minmax_element(std::begin(ends), std::end(ends));
   return {*least, *most};
 }
@@ -151,9 +168,9 @@ inline DyadicRatio Enclosure::root(const DyadicRatio& x, bool up) {
 
 inline Enclosure sqrt(const Enclosure& a) {
   if (!a.is_number()) return a;
-  if (a.upper_.sign() < 0) return Enclosure::undefined();
+  if (a.upper().sign() < 0) return Enclosure::undefined();
   if (a.lower_.sign() < 0) return Enclosure::unknown();
-  return {Enclosure::root(a.lower_, false), Enclosure::root(a.upper_, true)};
+  return {Enclosure::root(a.lower_, false), Enclosure::root(a.upper(), true)};
 }
 
 }  // namespace tightrope

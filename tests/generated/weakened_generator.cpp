@@ -28,7 +28,9 @@ constexpr std::array all_weakenings = {
     Weakening::drop_rounding_of_sums,   Weakening::drop_rounding_of_products, Weakening::drop_rounding_of_differences,
     Weakening::drop_first_factor_error, Weakening::drop_second_factor_error,  Weakening::drop_operand_error_of_sums,
     Weakening::drop_division_rounding,  Weakening::drop_input_bound,          Weakening::drop_underflow,
-    Weakening::halve_unit_roundoff,     Weakening::drop_product_of_errors,
+    Weakening::halve_unit_roundoff,     Weakening::drop_product_of_errors,    Weakening::drop_dividend_error,
+    Weakening::drop_divisor_error,      Weakening::drop_divisor_margin,       Weakening::drop_root_rounding,
+    Weakening::drop_radicand_error,     Weakening::drop_fma_rounding,         Weakening::drop_guards,
 };
 
 struct Case {
@@ -56,7 +58,22 @@ std::vector<Case> cases(BoundMode mode) {
   add(Weakening::drop_underflow, "_range", "scalar a, b, c", "a * b * c");
   result.back().range = "  range |a, b, c| <= 1\n";
   add(Weakening::halve_unit_roundoff, "", "scalar a, b", "a * b");
-  if (mode == BoundMode::safe) return result;  // (B, k) has no such terms
+  add(Weakening::drop_division_rounding, "_quotient", "scalar a, b", "a / b");
+  add(Weakening::drop_dividend_error, "", "bounded scalar a, scalar b", "a / b");
+  add(Weakening::drop_divisor_error, "", "scalar a, bounded scalar b", "a / b");
+  add(Weakening::drop_divisor_margin, "", "scalar a, bounded scalar b", "a / b");
+  add(Weakening::drop_root_rounding, "", "scalar a", "sqrt(a)");
+  add(Weakening::drop_radicand_error, "", "bounded scalar a", "sqrt(a)");
+  add(Weakening::drop_guards, "_divisor", "scalar a, bounded scalar b", "a / b");
+  add(Weakening::drop_guards, "_radicand", "bounded scalar a", "sqrt(a)");
+  if (mode == BoundMode::safe) return result;  // (B, k) has no such terms, or they do not show
+  add(Weakening::drop_dividend_error, "_relative", "scalar a, b, c", "(a - b) / c");
+  add(Weakening::drop_divisor_error, "_relative", "scalar a, b, c", "a / (b - c)");
+  add(Weakening::drop_radicand_error, "_relative", "scalar a, b", "sqrt(a - b)");
+  add(Weakening::drop_fma_rounding, "", "scalar a, b, c", "fma(a, b, c)");
+  add(Weakening::drop_first_factor_error, "_fma", "bounded scalar a, scalar b, c", "fma(a, b, c)");
+  add(Weakening::drop_second_factor_error, "_fma", "scalar a, bounded scalar b, scalar c", "fma(a, b, c)");
+  add(Weakening::drop_operand_error_of_sums, "_fma", "scalar a, b, bounded scalar c", "fma(a, b, c)");
   add(Weakening::drop_rounding_of_products, "_general", "scalar a, b, c, d", "(a * b + c) * d");
   add(Weakening::drop_first_factor_error, "_relative", "scalar a, b, c, d", "(a - b) * (c - d)");
   add(Weakening::drop_first_factor_error, "_general", "scalar a, b, c, d, e, f", "(a * b + c) * (d * e + f)");

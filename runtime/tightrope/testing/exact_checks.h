@@ -66,10 +66,13 @@ inline std::vector<bool> outputs_with_roots(const Reference& reference) {
 template <class Real>
 std::string judge_exact(const ExactOutcome<Real>& y, const Exact& exact, bool finite_inputs) {
   if (y.bounded) return judge(*y.bounded, exact);
+  if (exact.kind == Exact::Kind::unknown) return "";
   if (!y.sign) {
     if (!exact.finite()) return y.value ? "a value where there is none" : "";
     if (!y.value) return finite_inputs ? "no value" : "";
-    return *y.value == exact.value ? "" : "the value " + y.value->to_string() + " is not " + exact.value.to_string();
+    return *y.value == exact.value.lower()
+               ? ""
+               : "the value " + y.value->to_string() + " is not " + exact.value.lower().to_string();
   }
   const auto sign = static_cast<int>(*y.sign);
   if (!exact.finite()) return *y.sign == ExactSign::invalid ? "" : "a sign where there is none";
@@ -84,7 +87,7 @@ bool takes(const Reference& reference, const Case<Real>& c) {
   for (const Parameter& p : reference.parameters) {
     for (int k = 0; k < p.slots(); ++k, ++slot) {
       if (!p.bounded) continue;
-      if (!c.exact[slot].finite() || !(c.exact[slot].value.denominator() == Dyadic(1))) return false;
+      if (!c.exact[slot].finite() || !(c.exact[slot].value.lower().denominator() == Dyadic(1))) return false;
     }
   }
   return true;

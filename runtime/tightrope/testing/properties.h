@@ -43,7 +43,8 @@ Transformed<Real> translated(const Reference& reference, const Case<Real>& c, Ra
       if (!p.point) continue;
       const int d = offset[k % p.dimension];
       result.inputs.x[slot].value += static_cast<Real>(d);
-      result.inputs.exact[slot].value += DyadicRatio(d);
+      Enclosure& x = result.inputs.exact[slot].value;
+      x = x + Enclosure(DyadicRatio(d));
     }
   }
   return result;
@@ -57,7 +58,7 @@ Transformed<Real> scaled(const Property& property, const Case<Real>& c, Random& 
   Transformed<Real> result{c, power(exact_s, property.exponent)};
   for (std::size_t i = 0; i < c.x.size(); ++i) {
     result.inputs.x[i] = {c.x[i].value * s, c.x[i].bound * s};
-    result.inputs.exact[i].value *= exact_s;
+    result.inputs.exact[i].value = result.inputs.exact[i].value * exact_s;
   }
   return result;
 }
@@ -92,7 +93,8 @@ std::string check_property(const Reference& reference, std::span<const Code<Real
     for (const int element : property.outputs) {
       const auto i = static_cast<std::size_t>(element);
       if (!before[i].finite() || !after[i].finite()) continue;
-      if (after[i].value != before[i].value * t.factor) {
+      const Enclosure difference = after[i].value - before[i].value * t.factor;
+      if (difference.sign() != 0) {
         return std::string(reference.name) + ": property " + property.text + " does not hold for " +
                detail::output_name(reference, element) + "\n" + detail::describe_inputs(reference, c) + "becomes\n" +
                detail::describe_inputs(reference, t.inputs);

@@ -2,7 +2,7 @@
 /// The exact meaning of a predicate, as generated tests hold it: its operations as a table, evaluated in exact
 /// arithmetic (what is true) or in plain floating point (what the generated values must be). Host only.
 
-#include <tightrope/exact.h>
+#include <tightrope/enclosure.h>
 #include <tightrope/sign.h>
 
 #include <cmath>
@@ -12,14 +12,22 @@
 
 namespace tightrope::testing {
 
-enum class Op : unsigned char { input, constant, add, sub, neg, mul, scale, div, sqrt, abs, min, max };
+/// Where these tests themselves divide by what may be 0 (and mean infinity or NaN); generated code never does.
+#if defined(__GNUC__)
+#define TIGHTROPE_MAY_DIVIDE_BY_ZERO __attribute__((no_sanitize("float-divide-by-zero")))
+#else
+#define TIGHTROPE_MAY_DIVIDE_BY_ZERO
+#endif
 
-/// One line of a table; `a` and `b` are lines above it, or the input slot, or the power of two of `scale`.
+enum class Op : unsigned char { input, constant, add, sub, neg, mul, scale, div, sqrt, abs, min, max, fma };
+
+/// One line of a table; `a`, `b` and `c` are lines above it, or the input slot, or the power of two of `scale`.
 struct Operation {
   Op op;
   int a;
   int b;
   double value;
+  int c = 0;
 };
 
 constexpr Operation input(int slot) { return {Op::input, slot, 0, 0}; }
@@ -34,6 +42,7 @@ constexpr Operation sqrt(int a) { return {Op::sqrt, a, 0, 0}; }
 constexpr Operation abs(int a) { return {Op::abs, a, 0, 0}; }
 constexpr Operation min(int a, int b) { return {Op::min, a, b, 0}; }
 constexpr Operation max(int a, int b) { return {Op::max, a, b, 0}; }
+constexpr Operation fma(int a, int b, int c) { return {Op::fma, a, b, 0, c}; }  ///< a * b + c
 
 /// A parameter; its slots follow each other: elements outermost, then time, then component.
 struct Parameter {
@@ -80,18 +89,22 @@ struct Reference {
   int cases;         ///< inputs to try in each test
 };
 
-/// A number that may be infinite or undefined (0/0, inf - inf, and all that depends on it).
+/// A number that may be infinite or undefined (0/0, inf - inf, sqrt(-1), and all that depends on it); or it is unknown
+/// whether it is a number (a divisor too near to 0 to tell).
 struct Exact {
-  enum class Kind : unsigned char { finite, positive_infinity, negative_infinity, undefined };
+  enum class Kind : unsigned char { finite, positive_infinity, negative_infinity, undefined, unknown };
   Kind kind = Kind::finite;
-  DyadicRatio value;  ///< if finite
+  Enclosure value;  ///< if finite; exact but for roots
 
   bool finite() const { return kind == Kind::finite; }
   static Exact undefined() { return {Kind::undefined, {}}; }
+  static Exact of(const Enclosure& x) {
+    return {x.is_number() ? Kind::finite : x.is_undefined() ? Kind::undefined : Kind::unknown, x};
+  }
   static Exact of(double x) {
     if (std::isnan(x)) return undefined();
     if (std::isinf(x)) return {x > 0 ? Kind::positive_infinity : Kind::negative_infinity, {}};
-    return {Kind::finite, DyadicRatio(x)};
+    return {Kind::finite, Enclosure(x)};
   }
 };
 
@@ -106,19 +119,23 @@ inline Exact negated(const Exact& a) {
     case Exact::Kind::negative_infinity:
       return {Exact::Kind::positive_infinity, {}};
     case Exact::Kind::undefined:
+    case Exact::Kind::unknown:
       break;
   }
   return a;
 }
 
+/// Of numbers that are not both finite.
 inline bool less(const Exact& a, const Exact& b) {
   if (a.kind == Exact::Kind::negative_infinity || b.kind == Exact::Kind::positive_infinity) return a.kind != b.kind;
-  if (a.kind == Exact::Kind::positive_infinity || b.kind == Exact::Kind::negative_infinity) return false;
-  return a.value < b.value;
+  return false;
 }
 
 inline Exact smaller(const Exact& a, const Exact& b, bool smaller_one) {
-  if (a.kind == Exact::Kind::undefined || b.kind == Exact::Kind::undefined) return Exact::undefined();
+  for (const Exact::Kind kind : {Exact::Kind::undefined, Exact::Kind::unknown}) {
+    if (a.kind == kind || b.kind == kind) return {kind, {}};
+  }
+  if (a.finite() && b.finite()) return Exact::of(smaller_one ? min(a.value, b.value) : max(a.value, b.value));
   return less(a, b) == smaller_one ? a : b;
 }
 
@@ -127,37 +144,52 @@ inline Exact apply(const Operation& o, const Exact& a, const Exact& b) {
   if (o.op == Op::neg) return negated(a);
   if (o.op == Op::abs && a.kind == Exact::Kind::negative_infinity) return negated(a);
   if (o.op == Op::abs && !a.finite()) return a;
+  const bool unknown = a.kind == Exact::Kind::unknown || b.kind == Exact::Kind::unknown;
+  if (unknown && a.kind != Exact::Kind::undefined && b.kind != Exact::Kind::undefined)
+    return {Exact::Kind::unknown, {}};
   if (!a.finite() || !b.finite()) return Exact::undefined();
   switch (o.op) {
     case Op::add:
-      return {Exact::Kind::finite, a.value + b.value};
+      return Exact::of(a.value + b.value);
     case Op::sub:
-      return {Exact::Kind::finite, a.value - b.value};
+      return Exact::of(a.value - b.value);
     case Op::mul:
-      return {Exact::Kind::finite, a.value * b.value};
+      return Exact::of(a.value * b.value);
     case Op::scale:
-      return {Exact::Kind::finite, mul_pow2(a.value, o.b)};
+      return Exact::of(mul_pow2(a.value, o.b));
     case Op::div:
-      return b.value.sign() == 0 ? Exact::undefined() : Exact{Exact::Kind::finite, a.value / b.value};
+      return Exact::of(a.value / b.value);
     case Op::abs:
-      return {Exact::Kind::finite, a.value.sign() < 0 ? -a.value : a.value};
+      return Exact::of(abs(a.value));
     case Op::sqrt:
-      return Exact::undefined();  // no exact number: such outputs are compared with nothing
+      return Exact::of(sqrt(a.value));
     case Op::input:
     case Op::constant:
     case Op::neg:
     case Op::min:
     case Op::max:
+    case Op::fma:
       break;
   }
   return Exact::undefined();
 }
 
 constexpr bool has_second_operand(Op op) {
-  return op == Op::add || op == Op::sub || op == Op::mul || op == Op::div || op == Op::min || op == Op::max;
+  return op == Op::add || op == Op::sub || op == Op::mul || op == Op::div || op == Op::min || op == Op::max ||
+         op == Op::fma;
 }
 
 }  // namespace detail
+
+/// Whether generated code tests preconditions: where a divisor may be 0 or a radicand negative it has NaN in place of
+/// a value.
+inline bool has_preconditions(const Reference& reference) {
+  for (const Operation& o : reference.operations) {
+    const bool quotient = o.op == Op::div && reference.operations[static_cast<std::size_t>(o.b)].op != Op::constant;
+    if (quotient || o.op == Op::sqrt) return true;
+  }
+  return false;
+}
 
 /// The exact outputs for the exact inputs `slots`.
 inline std::vector<Exact> evaluate_exact(const Reference& reference, std::span<const Exact> slots) {
@@ -169,6 +201,9 @@ inline std::vector<Exact> evaluate_exact(const Reference& reference, std::span<c
       v.push_back(slots[a]);
     } else if (o.op == Op::constant) {
       v.push_back(Exact::of(o.value));
+    } else if (o.op == Op::fma) {
+      const Exact product = detail::apply(mul(o.a, o.b), v[a], v[static_cast<std::size_t>(o.b)]);
+      v.push_back(detail::apply(add(o.a, o.c), product, v[static_cast<std::size_t>(o.c)]));
     } else {
       v.push_back(detail::apply(o, v[a], v[detail::has_second_operand(o.op) ? static_cast<std::size_t>(o.b) : a]));
     }
@@ -180,7 +215,7 @@ inline std::vector<Exact> evaluate_exact(const Reference& reference, std::span<c
 
 /// The outputs in plain floating point, every operation rounded once.
 template <class Real>
-std::vector<Real> evaluate_plain(const Reference& reference, std::span<const Real> slots) {
+TIGHTROPE_MAY_DIVIDE_BY_ZERO std::vector<Real> evaluate_plain(const Reference& reference, std::span<const Real> slots) {
   std::vector<Real> v;
   v.reserve(reference.operations.size());
   for (const Operation& o : reference.operations) {
@@ -222,6 +257,9 @@ std::vector<Real> evaluate_plain(const Reference& reference, std::span<const Rea
         break;
       case Op::max:
         v.push_back(maximum(v[a], v[b]));
+        break;
+      case Op::fma:
+        v.push_back(std::fma(v[a], v[b], v[static_cast<std::size_t>(o.c)]));
         break;
     }
   }
