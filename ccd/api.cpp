@@ -34,6 +34,8 @@ Decision<Real> decision(Method method) {
       return {bsc_safe_collides<Real>, bsc_safe_collides<Real>};
     case Method::tight:
       return {tight_collides<Real>, tight_collides<Real>};
+    case Method::bsc_exact:
+      return {bsc_exact_collides<Real>, bsc_exact_collides<Real>};
   }
   return {tight_collides<Real>, tight_collides<Real>};
 }

@@ -168,9 +168,10 @@ bool may_touch(const Bounded<Real> (&k)[4], Signs& signs, const ComputeQuadratic
   return !reject_roots<Bound>(whole, z, hulls, signs);
 }
 
-/// Vertex-face, MATH 2 on coordinates of moderate size. `scaled`: they come from `normalize`.
-template <class Bound, class Real, class Signs>
-bool vertex_face_may_touch(const Real* points, bool scaled, Signs& signs) {
+/// Evaluates the polynomials of a vertex-face query (MATH 1.3) whose coordinates are of moderate size, `scaled` if they
+/// come from `normalize`; `decide` gets the coefficients of the cubic and a function that computes the quadratics.
+template <class Bound, class Real, class Decide>
+bool with_vertex_face_polynomials(const Real* points, bool scaled, const Decide& decide) {
   using predicate = generated::vertex_face<Bound, Real>;
   const MovingPoint<Real> p = moving_point(points, 0);
   std::array<std::pair<Real, MovingPoint<Real>>, 3> face;  // nearest vertex first
@@ -188,7 +189,7 @@ bool vertex_face_may_touch(const Real* points, bool scaled, Signs& signs) {
   typename predicate::State state;
   auto coplanarity = predicate::coplanarity_in_range(p.t0, p.t1, a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, state);
   if (scaled) widen(std::span<Bounded<Real>>(coplanarity.k));
-  return may_touch<Bound>(coplanarity.k, signs, [&] {
+  return decide(coplanarity.k, [&] {
     const auto inside = predicate::inside_in_range(p.t0, p.t1, a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, state);
     Quadratics<Real, 3> z;
     place(z, 0, inside.m_ab);
@@ -200,8 +201,8 @@ bool vertex_face_may_touch(const Real* points, bool scaled, Signs& signs) {
 }
 
 /// Edge-edge, likewise.
-template <class Bound, class Real, class Signs>
-bool edge_edge_may_touch(const Real* points, bool scaled, Signs& signs) {
+template <class Bound, class Real, class Decide>
+bool with_edge_edge_polynomials(const Real* points, bool scaled, const Decide& decide) {
   using predicate = generated::edge_edge<Bound, Real>;
   MovingPoint<Real> a = moving_point(points, 0), b = moving_point(points, 1);
   MovingPoint<Real> c = moving_point(points, 2), d = moving_point(points, 3);
@@ -222,7 +223,7 @@ bool edge_edge_may_touch(const Real* points, bool scaled, Signs& signs) {
   auto coplanarity = predicate::coplanarity_in_range(a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, d.t0, d.t1, near_b.t0,
                                                      near_b.t1, near_d.t0, near_d.t1, state);
   if (scaled) widen(std::span<Bounded<Real>>(coplanarity.k));
-  return may_touch<Bound>(coplanarity.k, signs, [&] {
+  return decide(coplanarity.k, [&] {
     const auto inside = predicate::inside_in_range(a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, d.t0, d.t1, near_b.t0, near_b.t1,
                                                    near_d.t0, near_d.t1, state);
     Quadratics<Real, 4> z;
@@ -235,15 +236,22 @@ bool edge_edge_may_touch(const Real* points, bool scaled, Signs& signs) {
   });
 }
 
-template <class Bound, class Real, class Signs>
-bool may_touch(Kind kind, const Real* points, bool scaled, Signs& signs) {
+template <class Bound, class Real, class Decide>
+bool with_polynomials(Kind kind, const Real* points, bool scaled, const Decide& decide) {
   switch (kind) {
     case Kind::vertex_face:
-      return vertex_face_may_touch<Bound>(points, scaled, signs);
+      return with_vertex_face_polynomials<Bound>(points, scaled, decide);
     case Kind::edge_edge:
-      return edge_edge_may_touch<Bound>(points, scaled, signs);
+      return with_edge_edge_polynomials<Bound>(points, scaled, decide);
   }
   return true;
+}
+
+template <class Bound, class Real, class Signs>
+bool may_touch(Kind kind, const Real* points, bool scaled, Signs& signs) {
+  return with_polynomials<Bound>(kind, points, scaled, [&](const auto& k, const auto& compute_quadratics) {
+    return may_touch<Bound>(k, signs, compute_quadratics);
+  });
 }
 
 /// The bound mode of the first look: SafeBound costs little more than the values, and nearly every query of a broad
@@ -284,15 +292,10 @@ bool never_coplanar(Kind kind, const Real* points, Signs& signs) {
 /// points are linear in t, so the ends of the step decide, and the sign of a rounded difference is exact.
 template <class Real, class Signs>
 bool separated(Kind kind, const Real* points, Signs& signs) {
-  using Pair = std::array<int, 2>;  // points of different features
-  static constexpr std::array<Pair, 3> vertex_face_pairs{{{0, 1}, {0, 2}, {0, 3}}};
-  static constexpr std::array<Pair, 4> edge_edge_pairs{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
-  const std::span<const Pair> pairs =
-      kind == Kind::vertex_face ? std::span<const Pair>(vertex_face_pairs) : std::span<const Pair>(edge_edge_pairs);
   for (int axis = 0; axis < 3; ++axis) {
     std::array<Sign, 8> sides;
     std::size_t count = 0;
-    for (const auto& [i, j] : pairs) {
+    for (const auto& [i, j] : pairs_of_features(kind)) {
       const MovingPoint<Real> x = moving_point(points, i), y = moving_point(points, j);
       sides[count++] = signs(Bounded<Real>{y.t0[axis] - x.t0[axis], 0});
       sides[count++] = signs(Bounded<Real>{y.t1[axis] - x.t1[axis], 0});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "ccd/rescale.h"
@@ -26,6 +27,14 @@ struct MovingPoint {
 template <class Real>
 MovingPoint<Real> moving_point(const Real* points, int index) {
   return {points + 3 * index, points + 3 * (index + points_per_query / 2)};
+}
+
+/// The pairs of points of different features.
+inline std::span<const std::array<int, 2>> pairs_of_features(Kind kind) {
+  using Pair = std::array<int, 2>;
+  static constexpr std::array<Pair, 3> vertex_face{{{0, 1}, {0, 2}, {0, 3}}};
+  static constexpr std::array<Pair, 4> edge_edge{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
+  return kind == Kind::vertex_face ? std::span<const Pair>(vertex_face) : std::span<const Pair>(edge_edge);
 }
 
 /// Largest difference of two points' coordinates at the ends of the step: an estimate that chooses, never decides.

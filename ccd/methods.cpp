@@ -5,11 +5,12 @@
 namespace tightrope::ccd {
 namespace {
 
-constexpr std::array<MethodInfo, 3> all_methods{{
+constexpr auto all_methods = std::to_array<MethodInfo>({
     {Method::bsc_float, "bsc-float", "none", false, "Wang et al. 2015 (TightCCD), in plain floating point"},
     {Method::bsc_safe, "bsc-safe", "SafeBound", true, "Wang et al. 2015 (TightCCD), bounds of Wang 2014 (SafeCCD)"},
     {Method::tight, "tight", "TightBound", true, "Wang et al. 2015 (TightCCD), decision tables repaired"},
-}};
+    {Method::bsc_exact, "bsc-exact", "exact", true, "Wang et al. 2015 (TightCCD), every sign exact", true},
+});
 
 }  // namespace
 

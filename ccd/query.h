@@ -20,6 +20,11 @@ bool tight_collides(Kind kind, const Real* points);
 template <class Real>
 bool tight_collides(Kind kind, const Real* points, CountingSignReader& signs);
 
+template <class Real>
+bool bsc_exact_collides(Kind kind, const Real* points);
+template <class Real>
+bool bsc_exact_collides(Kind kind, const Real* points, CountingSignReader& signs);
+
 /// Adds to `counts` the signs that the method reads for this query; returns its answer.
 template <class Real>
 bool collides(Kind kind, const Real* points, Method method, SignCounts& counts);

@@ -3,7 +3,8 @@
 ///
 /// A query asks: does the closed vertex touch the closed triangle (the closed segments each other) at some time t in
 /// [0, 1], each of the four points moving linearly from its position at t = 0 to that at t = 1? Degenerate triangles
-/// and segments included. `false` is a guarantee from every method but `bsc_float`; `true` may be a false positive.
+/// and segments included. `false` is a guarantee from every method but `bsc_float`; `true` may be a false positive,
+/// except from `bsc_exact`.
 
 #include <Eigen/Core>
 #include <array>
@@ -22,14 +23,16 @@ enum class Method {
   bsc_float,  ///< Bernstein sign classification in plain floating point: no bound, may miss collisions
   bsc_safe,   ///< with SafeBound [Wang 2014]
   tight,      ///< with TightBound: TightCCD [Wang et al. 2015], repaired
+  bsc_exact,  ///< with every sign exact: no false positives
 };
 
 struct MethodInfo {
   Method method;
   std::string_view name;   ///< "bsc-float", as the commands spell it
-  std::string_view bound;  ///< "none", "SafeBound", "TightBound"
+  std::string_view bound;  ///< "none", "SafeBound", "TightBound", "exact"
   bool conservative;       ///< never misses a collision
   std::string_view source;
+  bool exact = false;  ///< reports no false positive either
 };
 
 /// Every method, in the order of the tables.

@@ -13,7 +13,7 @@ namespace {
 using test::Query;
 
 TEST(Registry, NamesAndMethodsCorrespond) {
-  ASSERT_EQ(methods().size(), 3U);
+  ASSERT_FALSE(methods().empty());
   for (const MethodInfo& info : methods()) {
     EXPECT_EQ(method_by_name(info.name), info.method);
     EXPECT_EQ(name(info.method), info.name);

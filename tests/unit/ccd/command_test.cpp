@@ -43,7 +43,10 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
     std::string message;
   };
   const std::string commands = "commands: methods, evaluate, classify, generate, exact";
-  const std::string methods = "bsc-float, bsc-safe, tight";
+  std::string methods;
+  for (const MethodInfo& info : ccd::methods()) {
+    methods += methods.empty() ? std::string(info.name) : ", " + std::string(info.name);
+  }
   const BadUsage cases[] = {
       {{}, "A subcommand is required; " + commands},
       {{"simulate"}, "unknown command 'simulate'; " + commands},
