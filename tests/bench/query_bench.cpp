@@ -1,6 +1,6 @@
-/// Nanoseconds per query of every method, one thread: cloth-like queries (the survivors of a broad phase over two
-/// folding sheets) and, where they are found, the public benchmark's sample queries. Run: query_bench [Google
-/// Benchmark's options].
+/// Nanoseconds per query of every method in double and single precision, one thread: cloth-like queries (the survivors
+/// of a broad phase over two folding sheets) and, where they are found, the public benchmark's sample queries. Run:
+/// query_bench [Google Benchmark's options].
 
 #include <benchmark/benchmark.h>
 
@@ -63,11 +63,14 @@ QuerySet read_samples(const std::string& path, Kind kind) {
   }
 }
 
+template <class Real>
 void run_queries(benchmark::State& state, const QuerySet& set, Method method) {
-  const std::size_t count = set.points.size() / numbers_per_query;
+  std::vector<Real> points;
+  for (const double x : set.points) points.push_back(static_cast<Real>(x));
+  const std::size_t count = points.size() / numbers_per_query;
   std::vector<unsigned char> results(count);
   for (auto _ : state) {
-    collides(set.kind, set.points.data(), count, results.data(), method);
+    collides(set.kind, points.data(), count, results.data(), method);
     benchmark::DoNotOptimize(results.data());
     benchmark::ClobberMemory();
   }
@@ -91,9 +94,12 @@ int main(int argc, char** argv) {
   for (const QuerySet& set : sets) {
     if (set.points.empty()) continue;
     for (const MethodInfo& info : methods()) {
-      const std::string label = set.name + "/" + std::string(name(set.kind)) + "/" + std::string(info.name);
-      benchmark::RegisterBenchmark(label.c_str(), [&set, method = info.method](benchmark::State& state) {
-        run_queries(state, set, method);
+      const std::string label = set.name + "/" + std::string(name(set.kind)) + "/" + std::string(info.name) + "/";
+      benchmark::RegisterBenchmark((label + "double").c_str(), [&set, method = info.method](benchmark::State& state) {
+        run_queries<double>(state, set, method);
+      })->Unit(benchmark::kMillisecond);
+      benchmark::RegisterBenchmark((label + "float").c_str(), [&set, method = info.method](benchmark::State& state) {
+        run_queries<float>(state, set, method);
       })->Unit(benchmark::kMillisecond);
     }
   }
