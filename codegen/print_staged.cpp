@@ -16,6 +16,15 @@ using dsl::Op;
 
 constexpr std::string_view sign_type = "::tightrope::ExactSign";
 
+/// A first filter of mode `static` settles few signs of inputs that are much smaller than their range. Ranges up to
+/// this are taken for the size of the inputs; larger ones, as predicates declare them to exclude overflow, are not.
+constexpr double largest_telling_range = 0x1p16;
+
+bool has_telling_ranges(const dsl::Predicate& predicate) {
+  return std::all_of(predicate.parameters.begin(), predicate.parameters.end(),
+                     [](const dsl::Parameter& p) { return p.range.has_value() && *p.range <= largest_telling_range; });
+}
+
 /// Whether an infinite input (or a value that overflowed) can leave a finite result with a definite sign behind. Where
 /// it cannot, a definite sign of a filter means that all inputs it depends on are finite.
 bool swallows_infinities(const dsl::Predicate& predicate) {
@@ -259,11 +268,14 @@ std::optional<StagedPredicate> staged_predicate(const dsl::Predicate& predicate,
   StagedPredicate result;
   result.predicate = &predicate;
   result.program = std::move(*program);
-  for (const BoundMode mode : {BoundMode::safe, BoundMode::tight}) {
+  const auto add_filter = [&](BoundMode mode) {
     dsl::Diagnostics refusals;
     BoundedPredicate bounded = add_bounds(predicate, mode, precision, refusals, weakening);
     if (!refusals.has_errors()) result.filters.push_back({mode, std::move(bounded)});
-  }
+  };
+  if (has_telling_ranges(predicate)) add_filter(BoundMode::fixed);
+  if (result.filters.empty()) add_filter(BoundMode::safe);
+  add_filter(BoundMode::tight);
   return result;
 }
 

@@ -24,7 +24,8 @@ struct StagedPredicate {
   ExactProgram program;
 };
 
-/// The stages of a predicate: SafeBound, then TightBound, as far as they take its operations, then exact. Errors: what
+/// The stages of a predicate: `static` where all inputs have ranges of use, else SafeBound; then TightBound, as far as
+/// they take its operations; then exact. Errors: what
 /// exact_program reports, and inputs or outputs that the mode does not know.
 std::optional<StagedPredicate> staged_predicate(const dsl::Predicate& predicate, Precision precision,
                                                 dsl::Diagnostics& diagnostics, Weakening weakening = Weakening::none);
