@@ -16,7 +16,7 @@ std::string argument_lines(const std::vector<Argument>& arguments) {
     const Argument& argument = arguments[a];
     std::vector<std::string> items;
     for (const int slot : argument.slots) {
-      items.push_back(argument.bounded ? fmt::format("c.exact[{}].value.numerator()", slot)
+      items.push_back(argument.bounded ? fmt::format("c.exact[{}].value.lower().numerator()", slot)
                                        : fmt::format("c.x[{}].value", slot));
     }
     const std::string_view type = argument.bounded ? "Dyadic" : "Real";
