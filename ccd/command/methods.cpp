@@ -10,11 +10,11 @@ namespace tightrope::ccd {
 namespace {
 
 std::string methods_table() {
-  constexpr const char* layout = "{:<12} {:<12} {:<14} {}\n";
-  std::string text = fmt::format(fmt::runtime(layout), "method", "bound", "may miss", "source");
+  constexpr const char* layout = "{:<12} {:<12} {:<14} {:<12} {}\n";
+  std::string text = fmt::format(fmt::runtime(layout), "method", "bound", "may miss", "may add", "source");
   for (const MethodInfo& info : methods()) {
     text += fmt::format(fmt::runtime(layout), info.name, info.bound, info.conservative ? "never" : "collisions",
-                        info.source);
+                        info.exact ? "never" : "collisions", info.source);
   }
   return text;
 }
@@ -25,6 +25,7 @@ std::string methods_json() {
     array.push_back({{"name", info.name},
                      {"bound", info.bound},
                      {"conservative", info.conservative},
+                     {"exact", info.exact},
                      {"kinds", {name(Kind::vertex_face), name(Kind::edge_edge)}},
                      {"reals", {"double", "float"}},
                      {"devices", {"cpu"}},

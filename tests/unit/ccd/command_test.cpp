@@ -129,6 +129,7 @@ TEST(Command, MethodsListsAllOfThem) {
     EXPECT_EQ(array[i]["name"], methods()[i].name);
     EXPECT_EQ(array[i]["bound"], methods()[i].bound);
     EXPECT_EQ(array[i]["conservative"], methods()[i].conservative);
+    EXPECT_EQ(array[i]["exact"], methods()[i].exact);
   }
 }
 
