@@ -20,7 +20,7 @@ system_error thread tuple type_traits typeindex typeinfo unordered_map unordered
 version cassert cctype cerrno cfenv cfloat cinttypes climits clocale cmath csetjmp csignal cstdarg cstddef cstdint
 cstdio cstdlib cstring ctime cuchar cwchar cwctype""".split())
 POSIX = r"unistd\.h|signal\.h|spawn\.h|fcntl\.h|sys/\w+\.h"
-GENERATED = r"[\w-]+\.(?:float|safe|tight)\.(?:double|float)\.h"
+GENERATED = r"[\w-]+\.(?:float|safe|tight|exact)\.(?:double|float)\.h"
 
 # Folder (the longest prefix wins): what its files may include besides the standard library, as patterns of the path in
 # the repository or, if the repository has no such file, of the name as it is written.
@@ -30,7 +30,7 @@ RULES = {
     "runtime/": [RUNTIME],
     "dsl/": [r"dsl/.*", r"fmt/.*"],
     "codegen/": [r"codegen/.*", r"dsl/.*", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", r"(?:clang|llvm)/.*", RUNTIME, POSIX],
-    "ccd/": [r"ccd/[\w.]+", API, r"Eigen/.*", RUNTIME, GENERATED],
+    "ccd/": [r"ccd/(?:methods/)?[\w.]+", API, r"Eigen/.*", RUNTIME, GENERATED],
     "ccd/oracle/": [r"ccd/oracle/.*", API, r"gmp(?:xx)?\.h"],
     "ccd/query_io/": [r"ccd/query_io/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"hdf5\.h", POSIX],
     "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],
