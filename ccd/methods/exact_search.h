@@ -214,11 +214,11 @@ class Search {
       return {hull, hull};
     }
     arithmetic_.rescale(j);
-    const auto [m, n] = arithmetic_.division(piece.k, j);
-    const Branches<DefiniteSign> ms = linear_signs(piece, m), ns = linear_signs(piece, n);
+    const auto division = arithmetic_.division(piece.k, j);
+    const Branches<DefiniteSign> ms = linear_signs(piece, division.m), ns = linear_signs(piece, division.n);
     const auto at_root = [&](DefiniteSign on_m, DefiniteSign on_n) {
       const auto sign = quadratic_at_root(on_m, on_n);
-      return sign ? *sign : sign_at_rational_root(piece, m, j);
+      return sign ? *sign : sign_at_rational_root(piece, division.m, j);
     };
     return {piece.exists.first ? at_root(ms.first, ns.first) : DefiniteSign::zero,
             piece.exists.second ? at_root(ms.second, ns.second) : DefiniteSign::zero};
