@@ -42,7 +42,8 @@ std::string_view name(Method method);
 std::string_view name(Kind kind);  ///< "vertex-face", "edge-edge"
 
 /// Does the vertex touch the triangle? Units are the caller's; non-finite coordinates give true. In single precision
-/// the same question about the coordinates as they are given, decided in single precision.
+/// the same question about the coordinates as they are given, decided in single precision (by
+/// `bsc_exact`: exactly).
 bool vertex_face(const Eigen::Vector3d& v_t0, const Eigen::Vector3d& f0_t0, const Eigen::Vector3d& f1_t0,
                  const Eigen::Vector3d& f2_t0, const Eigen::Vector3d& v_t1, const Eigen::Vector3d& f0_t1,
                  const Eigen::Vector3d& f1_t1, const Eigen::Vector3d& f2_t1, Method method = Method::tight);

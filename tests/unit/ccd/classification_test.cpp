@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "classification.exact.double.h"
 #include "classification.safe.double.h"
 #include "classification.safe.float.h"
 #include "classification.tight.double.h"
@@ -22,6 +23,8 @@
 
 // After the generated headers:
 #include "ccd/classification.h"
+#include "ccd/methods/exact_arithmetic.h"
+#include "ccd/methods/exact_search.h"
 
 namespace tightrope::ccd {
 namespace {
@@ -121,6 +124,33 @@ TEST(Classification, MoreErosionNeverDecidesLess) {  // rejections only get fewe
     }
     EXPECT_EQ(last, 3000);  // no sign, no proof
   }
+}
+
+/// Contacts that the filter of `bsc-exact` denies, reading signs with `reader`.
+template <class Reader>
+int denied_contacts(std::uint64_t seed, int count, Reader reader) {
+  int denied = 0;
+  for (const Kind kind : kinds) {
+    ContactGenerator generator(seed);
+    for (int i = 0; i < count; ++i) {
+      const Query query = generator.contact(kind);
+      exact::FilterArithmetic<Reader> arithmetic(reader);
+      const bool contact =
+          with_polynomials<bound::tight>(kind, query.data(), false, [&](const auto& k, const auto& compute_quadratics) {
+            const auto z = compute_quadratics();
+            const auto lines = [&] { return z; };
+            return exact::Search(arithmetic, z, lines).contact(exact::values(k));
+          });
+      denied += !contact && !arithmetic.gave_up();
+    }
+  }
+  return denied;
+}
+
+TEST(Classification, TheFilterOfExactSignsDeniesNoContactUnlessItsBoundsAreTooSmall) {
+  EXPECT_EQ(denied_contacts(30, 20'000, SignReader{}), 0);
+  EXPECT_GT(denied_contacts(30, 20'000, BoastfulReader{0}), 0);
+  EXPECT_GT(denied_contacts(30, 20'000, GullibleReader{}), 0);
 }
 
 TEST(Classification, AnAxisSeparatesOnlyWhatStaysOnOneSideOfIt) {
