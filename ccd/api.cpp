@@ -36,6 +36,10 @@ Decision<Real> decision(Method method) {
       return {tight_collides<Real>, tight_collides<Real>};
     case Method::bsc_exact:
       return {bsc_exact_collides<Real>, bsc_exact_collides<Real>};
+    case Method::safe:
+      return {safe_collides<Real>, safe_collides<Real>};
+    case Method::safe_tight:
+      return {safe_tight_collides<Real>, safe_tight_collides<Real>};
   }
   return {tight_collides<Real>, tight_collides<Real>};
 }

@@ -10,6 +10,8 @@ constexpr auto all_methods = std::to_array<MethodInfo>({
     {Method::bsc_safe, "bsc-safe", "SafeBound", true, "Wang et al. 2015 (TightCCD), bounds of Wang 2014 (SafeCCD)"},
     {Method::tight, "tight", "TightBound", true, "Wang et al. 2015 (TightCCD), decision tables repaired"},
     {Method::bsc_exact, "bsc-exact", "exact", true, "Wang et al. 2015 (TightCCD), every sign exact", true},
+    {Method::safe, "safe", "SafeBound", true, "Wang 2014 (SafeCCD), its holes closed"},
+    {Method::safe_tight, "safe-tight", "TightBound", true, "Wang 2014 (SafeCCD) with the bounds of Wang et al. 2015"},
 });
 
 }  // namespace

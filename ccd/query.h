@@ -19,6 +19,14 @@ template <class Real>
 bool tight_collides(Kind kind, const Real* points);
 template <class Real>
 bool tight_collides(Kind kind, const Real* points, CountingSignReader& signs);
+template <class Real>
+bool safe_collides(Kind kind, const Real* points);
+template <class Real>
+bool safe_collides(Kind kind, const Real* points, CountingSignReader& signs);
+template <class Real>
+bool safe_tight_collides(Kind kind, const Real* points);
+template <class Real>
+bool safe_tight_collides(Kind kind, const Real* points, CountingSignReader& signs);
 
 template <class Real>
 bool bsc_exact_collides(Kind kind, const Real* points);

@@ -20,10 +20,12 @@ namespace tightrope::ccd {
 enum class Kind { vertex_face, edge_edge };
 
 enum class Method {
-  bsc_float,  ///< Bernstein sign classification in plain floating point: no bound, may miss collisions
-  bsc_safe,   ///< with SafeBound [Wang 2014]
-  tight,      ///< with TightBound: TightCCD [Wang et al. 2015], repaired
-  bsc_exact,  ///< with every sign exact: no false positives
+  bsc_float,   ///< Bernstein sign classification in plain floating point: no bound, may miss collisions
+  bsc_safe,    ///< with SafeBound [Wang 2014]
+  tight,       ///< with TightBound: TightCCD [Wang et al. 2015], repaired
+  bsc_exact,   ///< with every sign exact: no false positives
+  safe,        ///< root finding and inside tests with SafeBound: SafeCCD [Wang 2014], repaired
+  safe_tight,  ///< the same with TightBound
 };
 
 struct MethodInfo {
