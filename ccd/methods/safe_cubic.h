@@ -22,25 +22,19 @@
 #include <optional>
 
 #include "ccd/methods/safe_bound.h"
+#include "ccd/methods/safe_quadratic.h"
 #include "ccd/tables.h"
 
 namespace tightrope::generated {
 template <class Bound, class Real>
 struct safe_slope;
 template <class Bound, class Real>
-struct safe_extrema;
+struct safe_slopes;
 template <class Bound, class Real>
 struct safe_derivative;
 }  // namespace tightrope::generated
 
 namespace tightrope::ccd::safe {
-
-/// A part of the step.
-template <class Real>
-struct Interval {
-  Real l;
-  Real r;
-};
 
 /// F on [0, 1] with values and bounds; coefficients at most 1 in magnitude.
 template <class Bound, class Real>
@@ -63,29 +57,12 @@ class Cubic {
   CubicValue<Bound, Real> value_;
 };
 
-/// The parameters in (0, 1) at which the cubic has extrema, as good as floating point gives them, ascending. Appendix
-/// A: no cancellation between b and the root, the discriminant clamped at 0. A clamped one gives the inflection, where
-/// F' is least in magnitude: a cut there keeps the hull of F' one-signed on both sides.
+/// The parameters in (0, 1) at which the cubic has extrema, ascending, or its inflection where it has none: F' is least
+/// in magnitude there, and a cut keeps the hull of F' one-signed on both sides.
 template <class Real>
-struct Extrema {
-  std::array<Real, 2> t;
-  std::size_t count = 0;
-};
-
-template <class Real>
-Extrema<Real> extrema(const Real* k) {
-  const auto q = generated::safe_extrema<bound::none, Real>::evaluate_in_range(k);
-  Extrema<Real> found{};
-  const auto keep = [&](Real t) {
-    if (t > 0 && t < 1) found.t[found.count++] = t;  // false for NaN: a = b = 0, A.3
-  };
-  const Real root = std::sqrt(std::max(q.discriminant.value, Real(0)));
-  // The sum of larger magnitude, -(b +- root) / 2 with b = 2 half_b.
-  const Real sum = q.half_b.value > 0 ? -q.half_b.value - root : root - q.half_b.value;
-  keep(sum / q.a.value);
-  keep(q.c.value / sum);
-  if (found.count == 2 && found.t[1] < found.t[0]) std::swap(found.t[0], found.t[1]);
-  return found;
+QuadraticRoots<Real> extrema(const Real* k) {
+  const auto slopes = generated::safe_slopes<bound::none, Real>::evaluate_in_range(k);
+  return quadratic_roots<Real>({slopes.q[0].value, slopes.q[1].value, slopes.q[2].value});
 }
 
 /// F on a piece [s, e] on which it is monotone up to slack (S1).
@@ -180,7 +157,7 @@ struct Roots {
 
 template <class Bound, class Real, class Signs>
 Roots<Real> roots(const Cubic<Bound, Real>& f, Signs& signs) {
-  const Extrema<Real> cuts = extrema(f.plain());
+  const QuadraticRoots<Real> cuts = extrema(f.plain());
   Roots<Real> all{};
   Real s = 0;
   Bounded<Real> at_s = f.coefficients()[0];

@@ -16,8 +16,9 @@ struct edge_edge;
 
 namespace tightrope::ccd::safe {
 
-/// Is one feature beyond the other in a coordinate, at t = 0 and at t = 1? Then at every time between, since differences
-/// are linear in t. The signs of rounded differences are exact. Without branches: most answers cannot be predicted.
+/// Is one feature beyond the other in a coordinate, at t = 0 and at t = 1? Then at every time between, since
+/// differences are linear in t. The signs of rounded differences are exact. Without branches: most answers cannot be
+/// predicted.
 template <std::size_t Split, class Real, class Signs>
 bool separated_on_an_axis(const Real* points, Signs& signs) {
   bool separated = false;
@@ -35,9 +36,10 @@ bool separated_on_an_axis(const Real* points, Signs& signs) {
         greatest[end] = max(x[6], x[9]) - min(x[0], x[3]);
       }
     }
-    separated |= (signs(Bounded<Real>{least[0], 0}) == Sign::positive) & (signs(Bounded<Real>{least[1], 0}) == Sign::positive);
     separated |=
-        (signs(Bounded<Real>{greatest[0], 0}) == Sign::negative) & (signs(Bounded<Real>{greatest[1], 0}) == Sign::negative);
+        (signs(Bounded<Real>{least[0], 0}) == Sign::positive) & (signs(Bounded<Real>{least[1], 0}) == Sign::positive);
+    separated |= (signs(Bounded<Real>{greatest[0], 0}) == Sign::negative) &
+                 (signs(Bounded<Real>{greatest[1], 0}) == Sign::negative);
   }
   return separated;
 }

@@ -31,6 +31,7 @@
 #include "ccd/methods/safe_cubic.h"
 #include "ccd/methods/safe_culling.h"
 #include "ccd/methods/safe_naming.h"
+#include "ccd/methods/safe_vertex_edge.h"
 
 namespace tightrope::generated {
 template <class Bound, class Real>
@@ -161,15 +162,39 @@ class Decision {
            Sign::uncertain;
   }
 
-  /// The first part of `part` that steps 2 to 4 leave open (step 5).
-  std::optional<Interval<Real>> first_contact(const Cubic<Bound, Real>& f, Interval<Real> part, bool halved = false) {
-    if (halved && cubic_excludes(f, part)) return std::nullopt;
-    if (moments_exclude(part) || coordinate_excludes(part)) return std::nullopt;
+  /// Is the part free of contact by steps 2 to 4?
+  bool excluded(const Cubic<Bound, Real>& f, Interval<Real> part) const {
+    return moments_exclude(part) || coordinate_excludes(part) || cubic_excludes(f, part);
+  }
+
+  /// The first part of an interval of roots that may hold a contact.
+  std::optional<Interval<Real>> first_contact(const Cubic<Bound, Real>& f, Interval<Real> roots) {
+    if (moments_exclude(roots) || coordinate_excludes(roots)) return std::nullopt;
+    if (roots.r - roots.l < narrow) return roots;
+    Candidates<Real> candidates(roots);
+    for (const auto& axis : moments_) {
+      for (std::size_t i = 0; i < functions_; ++i) candidates.add_component(axis[i]);
+    }
+    for (const PointPair& pair : pairs_across(functions_ == 3 ? Kind::vertex_face : Kind::edge_edge)) {
+      const auto& p = names_.x[pair.first];
+      const auto& q = names_.x[pair.second];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        candidates.add_difference(q.t0[axis] - p.t0[axis], q.t1[axis] - p.t1[axis]);
+      }
+    }
+    std::optional<Interval<Real>> found;
+    candidates.any_part([&](Interval<Real> part) { return (found = first_open(f, part)).has_value(); });
+    return found;
+  }
+
+  /// The first part of `part`, halved as long as it is wide and the budget lasts, that is not excluded (step 5).
+  std::optional<Interval<Real>> first_open(const Cubic<Bound, Real>& f, Interval<Real> part) {
+    if (excluded(f, part)) return std::nullopt;
     const Real middle = part.l + (part.r - part.l) / 2;
     if (part.r - part.l < narrow || budget_ <= 0 || middle <= part.l || middle >= part.r) return part;
     --budget_;
-    if (const auto contact = first_contact(f, {part.l, middle}, true)) return contact;
-    return first_contact(f, {middle, part.r}, true);
+    if (const auto contact = first_open(f, {part.l, middle})) return contact;
+    return first_open(f, {middle, part.r});
   }
 
   /// Narrower parts are not halved: a contact in the limits of rounding.
