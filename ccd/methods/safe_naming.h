@@ -29,7 +29,7 @@ inline std::span<const PointPair> pairs_across(Kind kind) {
 /// of a and b nearer to d.
 template <class Real>
 struct Naming {
-  using Point = decltype(moving_point(std::declval<const Real*>(), 0));
+  using Point = MovingPoint<Real>;
 
   Naming(Kind kind, const Real* points) {
     for (std::size_t i = 0; i < 4; ++i) {

@@ -41,6 +41,8 @@ struct edge_edge;
 template <class Bound, class Real>
 struct safe_piece;
 template <class Bound, class Real>
+struct safe_diagonals;
+template <class Bound, class Real>
 struct safe_apart;
 }  // namespace tightrope::generated
 
@@ -62,16 +64,30 @@ class Decision {
   std::optional<Interval<Real>> first_contact() {
     std::array<Bounded<Real>, 4> k = cubic();
     if (hull(k) != Sign::uncertain) return std::nullopt;
+    compute_moments();
+    if (moments_exclude() || diagonal_excludes()) return std::nullopt;
     if (!rescale(k)) return Interval<Real>{0, 1};
     const Cubic<Bound, Real> f(k);
     const Roots<Real> candidates = roots(f, signs_);
     if (candidates.count == 0) return std::nullopt;
-    compute_moments();
-    if (!rescale({&moments_[0][0][0], 36})) return candidates.at[0];
+    if (!rescale(std::span(&moments_[0][0][0], 36))) return candidates.at[0];
     for (std::size_t i = 0; i < candidates.count; ++i) {
       if (const auto contact = first_contact(f, candidates.at[i])) return contact;
     }
     return std::nullopt;
+  }
+
+  const Naming<Real>& names() const { return names_; }
+
+  /// The moments on a part of the step; the middle coefficient of each is about its value in the middle.
+  Moments<Real> moments_on(Interval<Real> part) const {
+    Moments<Real> restricted_moments;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        restricted_moments[axis][i] = restricted<Bound>(moments_[axis][i], part.l, part.r);
+      }
+    }
+    return restricted_moments;
   }
 
  private:
@@ -85,7 +101,7 @@ class Decision {
   std::array<Bounded<Real>, 4> cubic() {
     const auto& [a, b, c, d] = names_.x;
     const auto finish = [&](auto& k) {
-      if (scaled_) widen(k);
+      if (scaled_) widen<Real>(k);
       return std::array<Bounded<Real>, 4>{k[0], k[1], k[2], k[3]};
     };
     if (functions_ == 3) {
@@ -119,21 +135,29 @@ class Decision {
       place(2, m.m_d);
       place(3, m.m_c);
     }
-    if (scaled_) widen({&moments_[0][0][0], 36});
+    if (scaled_) widen<Real>({&moments_[0][0][0], 36});
   }
 
-  /// Step 3: do two moments contradict each other in a coordinate all over the interval?
-  bool moments_exclude(Interval<Real> part) const {
+  /// Step 3: do two moments contradict each other in a coordinate, by their signs on a part of the step?
+  template <class SignOf>
+  bool moments_exclude(const SignOf& sign_of) const {
     for (const auto& axis : moments_) {
       bool negative = false, positive = false;
       for (std::size_t i = 0; i < functions_; ++i) {
-        const Sign s = hull(restricted<Bound>(axis[i], part.l, part.r));
+        const Sign s = sign_of(axis[i]);
         negative |= s == Sign::negative;
         positive |= s == Sign::positive;
-        if (negative && positive) return true;
       }
+      if (negative && positive) return true;
     }
     return false;
+  }
+  bool moments_exclude() const {
+    return moments_exclude([&](const std::array<Bounded<Real>, 3>& m) { return hull(m); });
+  }
+  bool moments_exclude(Interval<Real> part) const {
+    return moments_exclude(
+        [&](const std::array<Bounded<Real>, 3>& m) { return hull(restricted<Bound>(m, part.l, part.r)); });
   }
 
   /// Step 4: is one feature beyond the other in a coordinate all over the interval?
@@ -145,8 +169,8 @@ class Decision {
       const auto& q = names_.x[pair.second];
       auto d = generated::safe_apart<Bound, Real>::evaluate_in_range(p.t0, p.t1, q.t0, q.t1, part.l, part.r);
       if (scaled_) {
-        widen(d.at_l);
-        widen(d.at_r);
+        widen<Real>(d.at_l);
+        widen<Real>(d.at_r);
       }
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const Sign side = common(signs_(d.at_l[axis]), signs_(d.at_r[axis]));
@@ -154,6 +178,25 @@ class Decision {
       }
     }
     return sides[0] != Sign::uncertain || sides[1] != Sign::uncertain || sides[2] != Sign::uncertain;
+  }
+
+  /// Step 1, diagonals: does one of the directions x+-y, y+-z, z+-x separate the features all the time?
+  bool diagonal_excludes() const {
+    std::array<Sign, 6> sides{};
+    const std::span<const PointPair> pairs = pairs_across(functions_ == 3 ? Kind::vertex_face : Kind::edge_edge);
+    for (const PointPair& pair : pairs) {
+      const MovingPoint<Real>& p = names_.x[pair.first];
+      const MovingPoint<Real>& q = names_.x[pair.second];
+      auto d = generated::safe_diagonals<Bound, Real>::evaluate_in_range(p.t0, p.t1, q.t0, q.t1);
+      std::size_t direction = 0;
+      for (Bounded<Real>* ends : {d.xy, d.x_y, d.yz, d.y_z, d.zx, d.z_x}) {
+        if (scaled_) widen<Real>(std::span(ends, 2));
+        const Sign side = common(signs_(ends[0]), signs_(ends[1]));
+        sides[direction] = &pair == pairs.data() ? side : common(sides[direction], side);
+        ++direction;
+      }
+    }
+    return std::any_of(sides.begin(), sides.end(), [](Sign side) { return side != Sign::uncertain; });
   }
 
   bool cubic_excludes(const Cubic<Bound, Real>& f, Interval<Real> part) const {
@@ -212,20 +255,26 @@ class Decision {
   Moments<Real> moments_;
 };
 
-/// The first part of the step that may hold a contact. Not finite: the whole step.
-template <class Bound, class Real, class Signs>
-std::optional<Interval<Real>> first_contact(Kind kind, const Real* points, Signs& signs) {
+/// Calls `decide` with the points as they are, or scaled where that is needed, unless culling settles the query. Not
+/// finite, or all points one all the time: `always`.
+template <class Real, class Signs, class Result, class Decide>
+Result culled_or(Kind kind, const Real* points, Signs& signs, const Result& never, const Result& always,
+                 const Decide& decide) {
   if (has_moderate_coordinates(points)) {
-    if (never_coplanar<bound::safe>(kind, points, signs) || separated_on_an_axis(kind, points, signs)) return {};
-    if (spread(points) >= least_spread) {
-      return Decision<Bound, Real, Signs>(kind, points, false, signs).first_contact();
-    }
+    if (never_coplanar<bound::safe>(kind, points, signs) || separated_on_an_axis(kind, points, signs)) return never;
+    if (spread(points) >= least_spread<Real>) return decide(points, false);
   }
-  const auto query = normalize(points);
-  using Result = decltype(query.kind);
-  if (query.kind == Result::not_finite || query.kind == Result::coincident) return Interval<Real>{0, 1};
-  if (separated_on_an_axis(kind, points, signs)) return {};
-  return Decision<Bound, Real, Signs>(kind, query.points.data(), true, signs).first_contact();
+  const NormalizedQuery<Real> query = normalize(points);
+  if (query.kind != NormalizedQuery<Real>::Kind::scaled) return always;
+  if (separated_on_an_axis(kind, points, signs)) return never;
+  return decide(query.points.data(), true);
+}
+
+template <class Bound, class Real, class Signs>
+bool collides(Kind kind, const Real* points, Signs& signs) {
+  return culled_or(kind, points, signs, false, true, [&](const Real* prepared, bool scaled) {
+    return Decision<Bound, Real, Signs>(kind, prepared, scaled, signs).first_contact().has_value();
+  });
 }
 
 }  // namespace tightrope::ccd::safe

@@ -1,3 +1,4 @@
+#include "ccd/methods/safe_contact.h"
 #include "ccd/methods/safe_query.h"
 #include "ccd/query.h"
 #include "edge_edge.safe.double.h"
@@ -8,6 +9,8 @@
 #include "safe_cubic.float.float.h"
 #include "safe_cubic.tight.double.h"
 #include "safe_cubic.tight.float.h"
+#include "safe_culling.tight.double.h"
+#include "safe_culling.tight.float.h"
 #include "safe_inside.float.double.h"
 #include "safe_inside.float.float.h"
 #include "safe_inside.tight.double.h"
@@ -22,17 +25,26 @@ namespace tightrope::ccd {
 template <class Real>
 bool safe_tight_collides(Kind kind, const Real* points) {
   SignReader signs;
-  return safe::first_contact<bound::tight>(kind, points, signs).has_value();
+  return safe::collides<bound::tight>(kind, points, signs);
 }
 
 template <class Real>
 bool safe_tight_collides(Kind kind, const Real* points, CountingSignReader& signs) {
-  return safe::first_contact<bound::tight>(kind, points, signs).has_value();
+  return safe::collides<bound::tight>(kind, points, signs);
 }
 
 template bool safe_tight_collides(Kind, const double*);
 template bool safe_tight_collides(Kind, const double*, CountingSignReader&);
 template bool safe_tight_collides(Kind, const float*);
 template bool safe_tight_collides(Kind, const float*, CountingSignReader&);
+
+template <class Real>
+std::optional<Contact<Real>> safe_tight_contact(Kind kind, const Real* points) {
+  SignReader signs;
+  return safe::contact<bound::tight>(kind, points, signs);
+}
+
+template std::optional<Contact<double>> safe_tight_contact(Kind, const double*);
+template std::optional<Contact<float>> safe_tight_contact(Kind, const float*);
 
 }  // namespace tightrope::ccd
