@@ -24,4 +24,26 @@ struct Contact {
 std::optional<Contact<double>> first_contact(Kind kind, const double* points, Method method = Method::safe_tight);
 std::optional<Contact<float>> first_contact(Kind kind, const float* points, Method method = Method::safe_tight);
 
+/// One B of SafeBound for a whole scene. Most queries are settled by the first test, whose error bound is then one
+/// number for all of them; the others get bounds of their own, so that nothing is lost.
+template <class Real>
+class SceneBound {
+ public:
+  /// No two of a query's points differ by more than `largest_difference` in a coordinate, at the same end of the step.
+  /// A query that breaks this gets its own bound.
+  explicit SceneBound(Real largest_difference);
+
+  /// Are the four points never in one plane, by the scene's bound?
+  bool never_coplanar(Kind kind, const Real* points) const;
+
+ private:
+  Real largest_difference_;
+  Real vertex_face_;  ///< bounds of the coefficients of F
+  Real edge_edge_;
+};
+
+/// Method `safe` with the scene's B: answers as collides(kind, points, Method::safe) does.
+bool collides(Kind kind, const double* points, const SceneBound<double>& scene);
+bool collides(Kind kind, const float* points, const SceneBound<float>& scene);
+
 }  // namespace tightrope::ccd
