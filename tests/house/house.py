@@ -25,13 +25,13 @@ GENERATED = r"[\w-]+\.(?:float|safe|tight|exact)\.(?:double|float)\.h"
 # Folder (the longest prefix wins): what its files may include besides the standard library, as patterns of the path in
 # the repository or, if the repository has no such file, of the name as it is written.
 RUNTIME = r"runtime/tightrope/[\w/]+\.h"
-API = r"ccd/tightrope/ccd\.h"
+API = r"ccd/tightrope/\w+\.h"
 RULES = {
     "runtime/": [RUNTIME],
     "dsl/": [r"dsl/.*", r"fmt/.*"],
     "codegen/": [r"codegen/.*", r"dsl/.*", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", r"(?:clang|llvm)/.*", RUNTIME, POSIX],
     "ccd/": [r"ccd/(?:methods/)?[\w.]+", API, r"Eigen/.*", RUNTIME, GENERATED],
-    "ccd/oracle/": [r"ccd/oracle/.*", API, r"gmp(?:xx)?\.h"],
+    "ccd/oracle/": [r"ccd/oracle/.*", r"ccd/tightrope/ccd\.h", r"gmp(?:xx)?\.h"],
     "ccd/query_io/": [r"ccd/query_io/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"hdf5\.h", POSIX],
     "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],
     "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io)/.*", API, r"ccd/query\.h", r"fmt/.*", r"CLI/.*",
