@@ -21,13 +21,13 @@ namespace tightrope::ccd::safe {
 /// predicted.
 template <std::size_t Split, class Real, class Signs>
 bool separated_on_an_axis(const Real* points, Signs& signs) {
+  const auto min = [](Real a, Real b) { return a < b ? a : b; };
+  const auto max = [](Real a, Real b) { return a > b ? a : b; };
   bool separated = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    Real least[2], greatest[2];  // of the second feature's coordinates minus the first's, at both ends
+    std::array<Real, 2> least, greatest;  // of the second feature's coordinates minus the first's, at both ends
     for (std::size_t end = 0; end < 2; ++end) {
       const Real* x = points + 12 * end + axis;
-      const auto min = [](Real a, Real b) { return a < b ? a : b; };
-      const auto max = [](Real a, Real b) { return a > b ? a : b; };
       if constexpr (Split == 1) {
         least[end] = min(min(x[3], x[6]), x[9]) - x[0];
         greatest[end] = max(max(x[3], x[6]), x[9]) - x[0];
@@ -36,10 +36,8 @@ bool separated_on_an_axis(const Real* points, Signs& signs) {
         greatest[end] = max(x[6], x[9]) - min(x[0], x[3]);
       }
     }
-    separated |=
-        (signs(Bounded<Real>{least[0], 0}) == Sign::positive) & (signs(Bounded<Real>{least[1], 0}) == Sign::positive);
-    separated |= (signs(Bounded<Real>{greatest[0], 0}) == Sign::negative) &
-                 (signs(Bounded<Real>{greatest[1], 0}) == Sign::negative);
+    separated |= signs(Bounded<Real>{min(least[0], least[1]), 0}) == Sign::positive;
+    separated |= signs(Bounded<Real>{max(greatest[0], greatest[1]), 0}) == Sign::negative;
   }
   return separated;
 }
@@ -54,8 +52,10 @@ template <class Bound, class Real, class Signs>
 bool never_coplanar(Kind kind, const Real* points, Signs& signs) {
   const auto a = moving_point(points, 0), b = moving_point(points, 1);
   const auto c = moving_point(points, 2), d = moving_point(points, 3);
-  const auto one_sign = [&](const Bounded<Real>(&k)[4]) {
-    return common(common(signs(k[0]), signs(k[1])), common(signs(k[2]), signs(k[3]))) != Sign::uncertain;
+  const auto one_sign = [&](const Bounded<Real>(&k)[4]) {  // without branches
+    int sum = 0;
+    for (const Bounded<Real>& x : k) sum += static_cast<int>(signs(x));
+    return sum == 4 || sum == -4;
   };
   if (kind == Kind::vertex_face) {
     using Face = generated::vertex_face<Bound, Real>;
