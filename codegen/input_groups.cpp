@@ -48,22 +48,32 @@ double InputGroups::range_of(const Node& n) const {
   return p.range.value_or(INFINITY) * (p.bounded ? 2 : 1);
 }
 
-/// Groups are told apart by kind and index: a name may be that of two (a parameter may be called d_x).
-int InputGroups::enter(InputGroup::Kind kind, int index, std::string name, GroupMember member, double range) {
-  if (one_group_ && kind != InputGroup::Kind::bounded) {
-    kind = InputGroup::Kind::all;
-    index = 0;
-    name = "b";
+int InputGroups::list_of(int parameter) const {
+  const auto& lists = predicate_.grouping.lists;
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    if (std::find(lists[i].begin(), lists[i].end(), parameter) != lists[i].end()) return static_cast<int>(i);
   }
-  auto group = std::find_if(groups_.begin(), groups_.end(),
-                            [&](const InputGroup& g) { return g.kind == kind && g.index == index; });
-  if (group == groups_.end()) {
-    groups_.emplace_back();
-    group = groups_.end() - 1;
-    group->kind = kind;
-    group->index = index;
-    group->name = std::move(name);
+  return -1;
+}
+
+/// Groups are told apart by what they hold: a name may be that of two (a parameter may be called d_x).
+int InputGroups::enter(InputGroup wanted, GroupMember member, double range) {
+  if (!wanted.bounded() && (one_group_ || predicate_.grouping.all)) {
+    wanted.kind = InputGroup::Kind::all;
+    wanted.index = 0;
+    wanted.name = wanted.displacements ? "s" : "b";
   }
+  if (one_group_ && !wanted.bounded()) {
+    wanted.list = -1;
+    wanted.displacements = false;
+    wanted.name = "b";
+  }
+  if (wanted.list >= 0) wanted.name += "_group_" + std::to_string(wanted.list + 1);
+  auto group = std::find_if(groups_.begin(), groups_.end(), [&](const InputGroup& g) {
+    return g.kind == wanted.kind && g.index == wanted.index && g.list == wanted.list &&
+           g.displacements == wanted.displacements;
+  });
+  if (group == groups_.end()) group = groups_.insert(groups_.end(), std::move(wanted));
   group->members.push_back(member);
   group->range = std::max(group->range, range);
   return static_cast<int>(group - groups_.begin());
@@ -72,28 +82,46 @@ int InputGroups::enter(InputGroup::Kind kind, int index, std::string name, Group
 int InputGroups::enter_input(const Node& n, NodeId id) {
   const dsl::Parameter& p = parameter_of(n);
   const dsl::Slot& slot = slot_of(n);
+  InputGroup group;
   if (p.bounded) {
     const NodeId bound = graph_.input(n.index + static_cast<std::int32_t>(predicate_.slots.size()));
-    return enter(InputGroup::Kind::bounded, slot.parameter, p.name, {id, bound}, range_of(n));
+    group.kind = InputGroup::Kind::bounded;
+    group.index = slot.parameter;
+    group.name = p.name;
+    return enter(std::move(group), {id, bound}, range_of(n));
   }
-  if (p.dimension == 1) return enter(InputGroup::Kind::scalar, slot.parameter, p.name, {id, no_node}, range_of(n));
-  const std::string name = std::string("v_") + axis_names[slot.component];
-  return enter(InputGroup::Kind::vectors, slot.component, name, {id, no_node}, range_of(n));
+  group.list = list_of(slot.parameter);
+  const bool scalar = p.dimension == 1;
+  group.kind = scalar ? InputGroup::Kind::scalar : InputGroup::Kind::vectors;
+  group.index = !scalar ? slot.component : group.list >= 0 ? -1 : slot.parameter;  // a list's scalars are one group
+  group.name = !scalar ? std::string("v_") + axis_names[slot.component] : group.list >= 0 ? "b" : p.name;
+  return enter(std::move(group), {id, no_node}, range_of(n));
 }
 
 int InputGroups::enter_difference(const Node& n, NodeId id) {
   const Node& x = graph_[n.a];
   const Node& y = graph_[n.b];
-  const int axis = slot_of(x).component;
-  const bool one_axis = axis == slot_of(y).component && parameter_of(x).dimension > 1 && parameter_of(y).dimension > 1;
+  const dsl::Slot& sx = slot_of(x);
+  const dsl::Slot& sy = slot_of(y);
+  const bool one_axis = sx.component == sy.component && parameter_of(x).dimension > 1 && parameter_of(y).dimension > 1;
+  InputGroup group;
+  group.kind = InputGroup::Kind::differences;
+  group.index = one_axis ? sx.component : -1;
+  group.list = list_of(sx.parameter) == list_of(sy.parameter) ? list_of(sx.parameter) : -1;
+  group.displacements = predicate_.grouping.displacements && sx.parameter == sy.parameter && sx.element == sy.element &&
+                        sx.component == sy.component && sx.time != sy.time;
+  group.name = group.displacements ? "s" : "d";
+  if (one_axis) group.name += std::string("_") + axis_names[sx.component];
   const double range = (range_of(x) + range_of(y)) * (1 + 0x1p-10);
-  return enter(InputGroup::Kind::differences, one_axis ? axis : -1,
-               one_axis ? std::string("d_") + axis_names[axis] : "d", {id, no_node}, range);
+  return enter(std::move(group), {id, no_node}, range);
 }
 
 int InputGroups::enter_computed(const std::string& name, NodeId value, NodeId bound) {
-  const int index = static_cast<int>(predicate_.parameters.size()) + computed_++;
-  return enter(InputGroup::Kind::bounded, index, name + "_" + std::to_string(computed_), {value, bound}, INFINITY);
+  InputGroup group;
+  group.kind = InputGroup::Kind::bounded;
+  group.index = static_cast<int>(predicate_.parameters.size()) + computed_++;
+  group.name = name + "_" + std::to_string(computed_);
+  return enter(std::move(group), {value, bound}, INFINITY);
 }
 
 std::vector<std::string> InputGroups::names() const {

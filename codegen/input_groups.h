@@ -16,9 +16,11 @@ struct GroupMember {
 
 struct InputGroup {
   enum class Kind { differences, vectors, scalar, bounded, all } kind = Kind::all;
-  int index = 0;     ///< differences, vectors: the axis (-1: not along one axis); scalar, bounded: the parameter, or a
-                     ///< number beyond
-  std::string name;  ///< for people: "d_x"
+  int index = 0;  ///< differences, vectors: the axis (-1: not along one axis); scalar, bounded: the parameter, or a
+                  ///< number beyond
+  int list = -1;  ///< of `group (a, b), (c)`: the list that all its inputs are in, or -1
+  bool displacements = false;  ///< of `group displacements`: differences of one input at two times
+  std::string name;            ///< for people: "d_x"
   std::vector<GroupMember> members;
   double range = 0;  ///< no exact member exceeds it, by the declared ranges; else infinity
   dsl::NodeId maximum = dsl::no_node;
@@ -26,7 +28,8 @@ struct InputGroup {
   bool bounded() const { return kind == Kind::bounded; }
 };
 
-/// Sorts what a predicate's polynomials are made of into groups. `one_group`: all exact leaves share one maximum.
+/// Sorts what a predicate's polynomials are made of into groups, as its `group` statement says. `one_group`: all exact
+/// leaves share one maximum.
 class InputGroups {
  public:
   InputGroups(const dsl::Predicate& predicate, bool one_group, dsl::Graph& graph);
@@ -50,7 +53,8 @@ class InputGroups {
   dsl::NodeId overall_maximum(BoundExpressions& r);
 
  private:
-  int enter(InputGroup::Kind kind, int index, std::string name, GroupMember member, double range);
+  int enter(InputGroup group, GroupMember member, double range);
+  int list_of(int parameter) const;
   int enter_input(const dsl::Node& n, dsl::NodeId id);
   int enter_difference(const dsl::Node& n, dsl::NodeId id);
   const dsl::Slot& slot_of(const dsl::Node& n) const { return predicate_.slots[static_cast<std::size_t>(n.index)]; }

@@ -85,6 +85,13 @@ struct RangeDecl {
   ExprRange limit;
 };
 
+/// `group all` / `group axis, displacements` / `group (a, b), (c)`
+struct GroupDecl {
+  SourceSpan span;
+  std::vector<std::pair<std::string, SourceSpan>> words;
+  std::vector<std::vector<std::pair<std::string, SourceSpan>>> lists;  ///< parameter names
+};
+
 /// `property antisymmetric(a, b) of Y, Z` / `property scale(3)` / `property translation_invariant`
 struct PropertyDecl {
   SourceSpan span;
@@ -100,6 +107,7 @@ struct PredicateDecl {
   std::string doc;  ///< the `//` comment lines directly above, without the slashes, joined by newlines
   std::vector<ParameterDecl> parameters;
   std::vector<RangeDecl> ranges;
+  std::vector<GroupDecl> groups;
   std::vector<PropertyDecl> properties;
   std::vector<Statement> body;
 };

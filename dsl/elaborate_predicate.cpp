@@ -40,6 +40,7 @@ class PredicateElaborator {
     const PredicateDecl& declaration = *request_.declaration;
     for (const ParameterDecl& p : declaration.parameters) add_parameter(p);
     for (const RangeDecl& r : declaration.ranges) add_range(r);
+    elaborate_groups(request_, reporter_, result_);
     run_block(declaration.body, -1, "");
     if (!elaborator_.aborted() && !declarations_.incomplete) check_stages();
     if (!elaborator_.aborted()) {

@@ -21,6 +21,9 @@ struct PredicateRequest {
 Predicate elaborate_predicate(const PredicateRequest& request, const Declarations& declarations,
                               const BodyTable& bodies, const ElaborateOptions& options, Reporter& reporter);
 
+/// Enters what `group` statements say into `predicate.grouping`, its parameters known.
+void elaborate_groups(const PredicateRequest& request, Reporter& reporter, Predicate& predicate);
+
 /// Appends the property, its names resolved, unless it is erroneous. Of an instance, a property of parameters whose
 /// motions have come to differ is left out: it does not apply any more.
 void elaborate_property(const PropertyDecl& declaration, const PredicateRequest& request,

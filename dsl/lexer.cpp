@@ -17,7 +17,7 @@ struct Spelling {
   std::string_view text;
 };
 
-constexpr std::array<Spelling, 24> keywords{{
+constexpr std::array<Spelling, 25> keywords{{
     {TokenKind::keyword_predicate, "predicate"},
     {TokenKind::keyword_function, "function"},
     {TokenKind::keyword_instance, "instance"},
@@ -29,6 +29,7 @@ constexpr std::array<Spelling, 24> keywords{{
     {TokenKind::keyword_for, "for"},
     {TokenKind::keyword_in, "in"},
     {TokenKind::keyword_range, "range"},
+    {TokenKind::keyword_group, "group"},
     {TokenKind::keyword_property, "property"},
     {TokenKind::keyword_of, "of"},
     {TokenKind::keyword_as, "as"},

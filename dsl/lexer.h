@@ -48,6 +48,7 @@ enum class TokenKind : std::uint8_t {
   keyword_for,
   keyword_in,
   keyword_range,
+  keyword_group,
   keyword_property,
   keyword_of,
   keyword_as,

@@ -71,11 +71,13 @@ class BlockParser {
     if (kind == TokenKind::keyword_for) return parse_for();
     if (kind == TokenKind::keyword_stage) return parse_stage();
     if (kind == TokenKind::keyword_range) return parse_range();
+    if (kind == TokenKind::keyword_group) return parse_group();
     if (kind == TokenKind::keyword_property) return parse_property();
     if (kind == TokenKind::keyword_return) return parse_return();
     cursor_.expected_here(context_.function != nullptr ? "`let`, `for`, `return` or `}`"
-                          : context_.top_level() ? "`let`, `sign`, `value`, `for`, `stage`, `range`, `property` or `}`"
-                                                 : "`let`, `sign`, `value`, `for` or `}`");
+                          : context_.top_level()
+                              ? "`let`, `sign`, `value`, `for`, `stage`, `range`, `group`, `property` or `}`"
+                              : "`let`, `sign`, `value`, `for` or `}`");
     return false;
   }
 
@@ -220,6 +222,29 @@ class BlockParser {
     if (range.limit.empty()) return false;
     range.span = cursor_.since(begin);
     if (context_.predicate != nullptr) context_.predicate->ranges.push_back(std::move(range));
+    return true;
+  }
+
+  /// `group all`, `group axis`, `group displacements`, `group (a, b), (c)`, or several of these.
+  bool parse_group() {
+    const std::uint32_t begin = cursor_.take().begin;
+    require_top_level_of_predicate();
+    GroupDecl group;
+    do {
+      const Token open = cursor_.peek();
+      if (cursor_.accept(TokenKind::left_parenthesis)) {
+        if (!parse_names(cursor_, "a parameter's name", group.lists.emplace_back()) ||
+            !cursor_.expect_close(TokenKind::right_parenthesis, open)) {
+          return false;
+        }
+        continue;
+      }
+      const Token* word = cursor_.expect_name("`all`, `axis`, `displacements` or parameters in parentheses");
+      if (word == nullptr) return false;
+      group.words.emplace_back(cursor_.text(*word), cursor_.span(*word));
+    } while (cursor_.accept(TokenKind::comma));
+    group.span = cursor_.since(begin);
+    if (context_.predicate != nullptr) context_.predicate->groups.push_back(std::move(group));
     return true;
   }
 

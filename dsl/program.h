@@ -56,6 +56,13 @@ struct Property {
   std::vector<std::pair<int, int>> outputs;  ///< (stage, output) it holds for
 };
 
+/// Which exact inputs share one run-time maximum in SafeBound (codegen/input_groups.h).
+struct Grouping {
+  bool all = false;                     ///< all of them; else each coordinate axis, and each scalar, on its own
+  bool displacements = false;           ///< differences of one input at two times apart from the others
+  std::vector<std::vector<int>> lists;  ///< parameters whose inputs, and differences among them, are apart from others
+};
+
 struct Predicate {
   std::string name;
   std::string doc;
@@ -64,6 +71,7 @@ struct Predicate {
   std::vector<Slot> slots;  ///< one per input slot
   std::vector<Stage> stages;
   std::vector<Property> properties;
+  Grouping grouping;
   Graph graph;
 };
 

@@ -12,8 +12,9 @@
 namespace tightrope::dsl {
 
 inline constexpr std::array statement_keywords = {
-    TokenKind::keyword_let,   TokenKind::keyword_sign,  TokenKind::keyword_value,    TokenKind::keyword_for,
-    TokenKind::keyword_stage, TokenKind::keyword_range, TokenKind::keyword_property, TokenKind::keyword_return};
+    TokenKind::keyword_let,      TokenKind::keyword_sign,   TokenKind::keyword_value,
+    TokenKind::keyword_for,      TokenKind::keyword_stage,  TokenKind::keyword_range,
+    TokenKind::keyword_property, TokenKind::keyword_return, TokenKind::keyword_group};
 
 inline constexpr std::array declaration_keywords = {TokenKind::keyword_predicate, TokenKind::keyword_function,
                                                     TokenKind::keyword_instance, TokenKind::keyword_import};
