@@ -95,6 +95,7 @@ class ImportPrinter {
   }
 
   std::string unique(std::string name) {
+    std::erase_if(name, [](unsigned char c) { return c > 127 || (std::isalnum(c) == 0 && c != '_'); });
     while (name.starts_with('_')) name.erase(0, 1);
     while (name.find("__") != std::string::npos) name.erase(name.find("__"), 1);
     if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0]))) name = "x" + name;
@@ -347,8 +348,10 @@ std::string import_text(const ImportedFunction& function, const std::string& sou
   if (std::string plain = text({}); computes(plain, function, errors)) return plain;
   std::set<NodeId> kept = scalings(function.graph);
   std::string result = text(kept);
+  errors.clear();
   if (!computes(result, function, errors)) {
-    throw TranslationError(fmt::format("{}{}", errors.empty() ? "" : errors + "\n", result));
+    if (!errors.empty()) throw InexpressibleFunction(errors);
+    throw TranslationError(result);
   }
   constexpr std::size_t most_tries = 200;
   if (kept.size() > most_tries) return result;

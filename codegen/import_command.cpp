@@ -38,7 +38,14 @@ int run_import(const ImportArguments& arguments) {
     std::fputs(errors.c_str(), stderr);
     return bad_program;
   }
-  const std::string text = import_text(*function, std::filesystem::path(arguments.file).filename().string());
+  std::string text;
+  try {
+    text = import_text(*function, std::filesystem::path(arguments.file).filename().string());
+  } catch (const InexpressibleFunction& error) {
+    fmt::print(stderr, "{}: error: `{}` goes beyond the language's limits; its predicate:\n{}", arguments.file,
+               function->name, error.what());
+    return bad_program;
+  }
   if (arguments.output.empty()) {
     std::fputs(text.c_str(), stdout);
     return done;

@@ -1,5 +1,7 @@
 #include "codegen/clang/interpreter.h"
 
+#include <clang/AST/Attr.h>
+#include <clang/Basic/SourceManager.h>
 #include <fmt/format.h>
 
 namespace tightrope::codegen {
@@ -86,13 +88,26 @@ Interpreter::Frame Interpreter::bind(const clang::FunctionDecl* function,
   return frame;
 }
 
+namespace {
+
+/// Whether the standard says what it does: a declaration of the C library's, or std:: in a system header. A user's
+/// function with a visible body is what its body says, whatever its name.
+bool is_library_function(const clang::FunctionDecl* function, const clang::SourceManager& sources) {
+  const clang::FunctionDecl* definition = nullptr;
+  const bool visible = function->hasBody(definition) && !sources.isInSystemHeader(definition->getLocation());
+  if (visible) return false;
+  return function->getBuiltinID() != 0 ||
+         (function->isInStdNamespace() && sources.isInSystemHeader(function->getLocation()));
+}
+
+}  // namespace
+
 /// Functions of the standard library that are operations of the language.
 bool Interpreter::builtin_call(const clang::CallExpr* call, Value& result) {
   const clang::FunctionDecl* callee = call->getDirectCallee();
   if (callee == nullptr) throw ImportError{call->getExprLoc(), "a call through a pointer"};
   std::string name = callee->getNameAsString();
-  const bool library = callee->isInStdNamespace() || callee->getBuiltinID() != 0 || callee->isExternC();
-  if (!library) return false;
+  if (!is_library_function(callee, context_.getSourceManager())) return false;
   if (name.starts_with("__builtin_")) name = name.substr(10);
   struct Function {
     std::string_view name;
@@ -106,23 +121,27 @@ bool Interpreter::builtin_call(const clang::CallExpr* call, Value& result) {
     if (f.name != name || call->getNumArgs() != static_cast<unsigned>(dsl::operand_count(f.op))) continue;
     std::vector<Value> operands;
     for (const clang::Expr* argument : call->arguments()) {
+      if (!argument->getType()->isArithmeticType()) return false;
       operands.push_back(argument->isGLValue()
                              ? load(evaluate_place(argument), argument->getType(), argument->getExprLoc())
                              : evaluate(argument));
     }
     const clang::SourceLocation where = call->getExprLoc();
     const auto kind = operands.front().kind;
-    if (kind == Value::Kind::integer && f.op != Op::sqrt && f.op != Op::fma) {
+    const clang::QualType type = call->getType().getNonReferenceType();
+    if (kind == Value::Kind::integer && operands.back().kind == kind && type->isIntegerType() && f.op != Op::sqrt &&
+        f.op != Op::fma) {
       const std::int64_t x = operands.front().integer;
       const std::int64_t y = operands.back().integer;
-      result = Value::whole(f.op == Op::abs ? std::abs(x) : f.op == Op::min ? std::min(x, y) : std::max(x, y));
+      const WideInteger magnitude = x < 0 ? -WideInteger{x} : x;
+      result = whole(f.op == Op::abs ? magnitude : f.op == Op::min ? std::min(x, y) : std::max(x, y), type, where);
       return true;
     }
     for (const Value& v : operands) {
       if (v.kind != Value::Kind::number)
         throw ImportError{where, fmt::format("`{}` of something else than numbers", name)};
     }
-    use_real(call->getType().getNonReferenceType(), where);
+    use_real(type, where);
     if (f.op == Op::fma) {
       const NodeId node = graph_.fma(operands[0].node, operands[1].node, operands[2].node);
       result = Value::number(noted(node, operands[0].node, operands[1].node, where));
@@ -154,8 +173,9 @@ std::vector<Value> Interpreter::call_expression(const clang::CallExpr* call) {
   }
   if (method->isCopyAssignmentOperator() || method->isMoveAssignmentOperator()) {
     if (method->isTrivial()) {
+      // The right side is complete before the left changes: v = V{v.y, v.x}.
       const clang::QualType type = context_.getRecordType(method->getParent());
-      initialise(self, type, arguments.front());
+      copy(evaluate_place(arguments.front()), self, cells_of(type, context_, where), where);
       return {Value::pointer(self)};
     }
   }
@@ -169,7 +189,10 @@ void Interpreter::construct(Place place, const clang::CXXConstructExpr* expressi
   const clang::CXXConstructorDecl* constructor = expression->getConstructor();
   const clang::SourceLocation where = expression->getExprLoc();
   std::vector<const clang::Expr*> arguments(expression->arg_begin(), expression->arg_end());
-  if (constructor->isTrivial() || (constructor->isDefaulted() && constructor->isCopyOrMoveConstructor())) {
+  if (!constructor->isTrivial() && constructor->isDefaulted() && constructor->isCopyOrMoveConstructor()) {
+    throw ImportError{where, "a copy of an object with a member that has a copy constructor of its own"};
+  }
+  if (constructor->isTrivial()) {
     if (arguments.empty()) return;  // left unset
     copy(evaluate_place(arguments.front()), place, cells_of(expression->getType(), context_, where), where);
     return;
@@ -258,6 +281,7 @@ void Interpreter::declare(const clang::VarDecl* variable) {
     return;
   }
   if (type.isVolatileQualified()) throw ImportError{where, "a volatile object may change at any time"};
+  if (variable->hasAttr<clang::CleanupAttr>()) throw ImportError{where, "a variable with a clean-up function"};
   if (type->isRealFloatingType()) use_real(type, where);
   const Place place = allocate(type, variable->getNameAsString(), where);
   frame.variables[variable] = place;

@@ -21,6 +21,9 @@ const clang::Expr* plain(const clang::Expr* e);
 
 inline bool is_real(const clang::Expr* e) { return e->getType()->isRealFloatingType(); }
 
+/// Holds every result of one operation on 64-bit integers.
+__extension__ using WideInteger = __int128;
+
 inline constexpr const char* branch_on_data =
     "a branch on a computed number: a predicate is straight-line (return the number whose sign decides)";
 
@@ -89,7 +92,12 @@ class Interpreter {
   std::pair<Place, Value> assign(const clang::BinaryOperator* binary);
   Value evaluate_conditional(const clang::ConditionalOperator* conditional);
   Value apply(clang::BinaryOperatorKind operation, const Value& a, const Value& b, clang::QualType operand_type,
-              const clang::Expr* whole);
+              clang::QualType result_type, clang::SourceLocation where);
+  Value apply_to_integers(clang::BinaryOperatorKind operation, std::int64_t x, std::int64_t y,
+                          clang::QualType result_type, clang::SourceLocation where);
+  Value whole(WideInteger result, clang::QualType type, clang::SourceLocation where) const;
+  Value whole(const llvm::APSInt& value, clang::SourceLocation where) const;
+  static Place moved(Place place, std::int64_t elements, std::int64_t size, clang::SourceLocation where);
   bool condition(const clang::Expr* expression);
   std::int64_t integer(const clang::Expr* expression);
   dsl::NodeId number(const clang::Expr* expression);
@@ -100,7 +108,8 @@ class Interpreter {
   void copy(Place from, Place to, std::int64_t count, clang::SourceLocation where);
   void name(Place place, const Value& value);
 
-  // interpreter_number.cpp: the arithmetic, constants folded as C++ rounds them
+  // interpreter_integer.cpp: whole, moved, apply_to_integers; interpreter_number.cpp: the arithmetic, constants folded
+  // as C++ rounds them
   dsl::NodeId constant(double value, clang::SourceLocation where);
   dsl::NodeId binary(dsl::Op op, dsl::NodeId a, dsl::NodeId b, clang::SourceLocation where);
   dsl::NodeId unary(dsl::Op op, dsl::NodeId a, clang::SourceLocation where);

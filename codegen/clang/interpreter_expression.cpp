@@ -47,7 +47,9 @@ Value Interpreter::load(Place place, clang::QualType type, clang::SourceLocation
   const auto index = static_cast<std::size_t>(place.offset);
   if (o.parameter >= 0 && !o.written[index]) objects_[static_cast<std::size_t>(place.object)].read[index] = true;
   if (value.kind != Value::Kind::none) return value;
-  if (o.parameter < 0) throw ImportError{where, fmt::format("`{}` is read before it is set", o.name)};
+  if (o.parameter < 0 || o.written[index]) {
+    throw ImportError{where, fmt::format("`{}` is read before it is set", o.name)};
+  }
   if (!type->isRealFloatingType()) {
     throw ImportError{where, fmt::format("`{}` is not known at compile time", o.name)};
   }
@@ -120,7 +122,7 @@ Place Interpreter::global_constant(const clang::VarDecl* variable, clang::Source
     } else if (v.isStruct()) {
       for (unsigned i = 0; i < v.getStructNumFields(); ++i) self(self, v.getStructField(i));
     } else if (v.isInt()) {
-      cell({place.object, next++}, where) = Value::whole(v.getInt().getExtValue());
+      cell({place.object, next++}, where) = whole(v.getInt(), where);
     } else if (v.isFloat()) {
       llvm::APFloat number = v.getFloat();
       bool loses = false;
@@ -150,7 +152,7 @@ Place Interpreter::evaluate_place(const clang::Expr* expression) {
     const Value base = evaluate(element->getBase());
     if (base.kind != Value::Kind::place) throw ImportError{where, "this pointer leads nowhere that is known"};
     const std::int64_t size = cells_of(element->getType(), context_, where);
-    return {base.place.object, base.place.offset + integer(element->getIdx()) * size};
+    return moved(base.place, integer(element->getIdx()), size, where);
   }
   if (const auto* member = dyn_cast<clang::MemberExpr>(e)) {
     const auto* field = dyn_cast<clang::FieldDecl>(member->getMemberDecl());
@@ -236,7 +238,7 @@ Value Interpreter::evaluate(const clang::Expr* expression) {
   if (e->isGLValue()) return Value::pointer(evaluate_place(e));
   if (e->getType()->isIntegralOrEnumerationType()) {
     clang::Expr::EvalResult result;
-    if (e->EvaluateAsInt(result, context_)) return Value::whole(result.Val.getInt().getExtValue());
+    if (e->EvaluateAsInt(result, context_)) return whole(result.Val.getInt(), where);
   }
   throw ImportError{where, "this expression cannot be followed"};
 }

@@ -45,6 +45,26 @@ NodeId Interpreter::noted(NodeId node, NodeId a, NodeId b, clang::SourceLocation
   return node;
 }
 
+namespace {
+
+/// The language takes a factor of up to 53 bits times a power of two of an exponent in [-900, 900], or a power of two.
+void check_factor(const double* factor, clang::SourceLocation where) {
+  if (factor == nullptr || *factor == 0) return;
+  int exponent = 0;
+  double mantissa = std::frexp(std::abs(*factor), &exponent);
+  if (mantissa == 0.5) return;
+  while (mantissa != std::floor(mantissa)) mantissa *= 2, --exponent;
+  constexpr int farthest = 900;
+  if (std::abs(exponent) > farthest) {
+    throw ImportError{where,
+                      fmt::format("a product or quotient with the constant {}: factors that are no powers of two "
+                                  "are odd numbers times 2^-{} to 2^{}",
+                                  *factor, farthest, farthest)};
+  }
+}
+
+}  // namespace
+
 /// Besides folding constants: x + 0, x - 0, 1 x and x / 1 are x (but for the sign of a zero), sums with negative
 /// constants become differences and x + x becomes 2 x, the same numbers in the language's own spelling.
 NodeId Interpreter::binary(Op op, NodeId a, NodeId b, clang::SourceLocation where) {
@@ -68,6 +88,10 @@ NodeId Interpreter::binary(Op op, NodeId a, NodeId b, clang::SourceLocation wher
     }
   }
   if (op == Op::div && y != nullptr && *y == 0) throw ImportError{where, "a division by zero"};
+  if (op == Op::mul || op == Op::div) {
+    check_factor(x, where);
+    check_factor(y, where);
+  }
   const auto is = [](const double* constant, double value) { return constant != nullptr && *constant == value; };
   if (is(y, op == Op::add || op == Op::sub ? 0 : 1) && op != Op::min && op != Op::max) return a;
   if ((op == Op::add && is(x, 0)) || (op == Op::mul && is(x, 1))) return b;

@@ -10,6 +10,15 @@ using clang::dyn_cast;
 using dsl::NodeId;
 using dsl::Op;
 
+namespace {
+
+ImportError other_type(const clang::CastExpr* cast) {
+  return {cast->getExprLoc(), fmt::format("a conversion from `{}` to `{}`", cast->getSubExpr()->getType().getAsString(),
+                                          cast->getType().getAsString())};
+}
+
+}  // namespace
+
 Value Interpreter::evaluate_cast(const clang::CastExpr* cast) {
   const clang::Expr* from = cast->getSubExpr();
   const clang::SourceLocation where = cast->getExprLoc();
@@ -24,16 +33,7 @@ Value Interpreter::evaluate_cast(const clang::CastExpr* cast) {
     case clang::CK_BitCast:
       if (cast->getCastKind() == clang::CK_BitCast) throw ImportError{where, "a pointer to another type"};
       if (cast->getCastKind() == clang::CK_IntegralCast) {
-        const std::int64_t value = integer(from);
-        const llvm::APSInt wide = llvm::APSInt::get(value);
-        const unsigned bits = static_cast<unsigned>(context_.getIntWidth(cast->getType()));
-        const bool is_unsigned = cast->getType()->isUnsignedIntegerOrEnumerationType();
-        if (bits >= 64 && is_unsigned && value < 0) {
-          throw ImportError{where, "a whole number beyond the range of its type"};
-        }
-        if (bits >= 64) return Value::whole(value);
-        return Value::whole(is_unsigned ? static_cast<std::int64_t>(wide.zextOrTrunc(bits).getZExtValue())
-                                        : wide.trunc(bits).getSExtValue());
+        return whole(integer(from), cast->getType(), where);
       }
       return evaluate(from);
     case clang::CK_ArrayToPointerDecay:
@@ -42,6 +42,7 @@ Value Interpreter::evaluate_cast(const clang::CastExpr* cast) {
       const Value value = evaluate(from);
       if (value.kind != Value::Kind::integer) throw ImportError{where, "a conversion of data to another type"};
       const bool single = cast->getType()->isSpecificBuiltinType(clang::BuiltinType::Float);
+      if (!single && !cast->getType()->isSpecificBuiltinType(clang::BuiltinType::Double)) throw other_type(cast);
       return Value::number(constant(
           single ? static_cast<double>(static_cast<float>(value.integer)) : static_cast<double>(value.integer), where));
     }
@@ -54,6 +55,9 @@ Value Interpreter::evaluate_cast(const clang::CastExpr* cast) {
                                       from->getType().getAsString(), cast->getType().getAsString())};
       }
       const bool single = cast->getType()->isSpecificBuiltinType(clang::BuiltinType::Float);
+      const bool wider = cast->getType()->isSpecificBuiltinType(clang::BuiltinType::Double) ||
+                         cast->getType()->isSpecificBuiltinType(clang::BuiltinType::LongDouble);
+      if (!single && !wider) throw other_type(cast);
       return Value::number(constant(single ? static_cast<double>(static_cast<float>(*value)) : *value, where));
     }
     case clang::CK_IntegralToBoolean:
@@ -65,8 +69,7 @@ Value Interpreter::evaluate_cast(const clang::CastExpr* cast) {
     case clang::CK_ToVoid:
       return evaluate(from);
     default:
-      throw ImportError{where, fmt::format("a conversion from `{}` to `{}`", from->getType().getAsString(),
-                                           cast->getType().getAsString())};
+      throw other_type(cast);
   }
 }
 
@@ -78,11 +81,11 @@ Value Interpreter::evaluate_unary(const clang::UnaryOperator* unary) {
       return evaluate(operand);
     case clang::UO_Minus:
       if (is_real(unary)) return Value::number(this->unary(Op::neg, number(operand), where));
-      return Value::whole(-integer(operand));
+      return whole(-WideInteger{integer(operand)}, unary->getType(), where);
     case clang::UO_LNot:
       return Value::whole(condition(operand) ? 0 : 1);
     case clang::UO_Not:
-      return Value::whole(~integer(operand));
+      return whole(~integer(operand), unary->getType(), where);
     case clang::UO_AddrOf:
       return Value::pointer(evaluate_place(operand));
     case clang::UO_PreInc:
@@ -104,7 +107,7 @@ std::pair<Place, Value> Interpreter::increment(const clang::UnaryOperator* unary
   const Value before = load(place, operand->getType(), where);
   const auto operation = unary->isIncrementOp() ? clang::BO_Add : clang::BO_Sub;
   const Value one = is_real(operand) ? Value::number(graph_.constant(1)) : Value::whole(1);
-  store(place, apply(operation, before, one, operand->getType(), unary), where);
+  store(place, apply(operation, before, one, operand->getType(), operand->getType(), where), where);
   return {place, before};
 }
 
@@ -121,8 +124,14 @@ std::pair<Place, Value> Interpreter::assign(const clang::BinaryOperator* binary)
   Value value = evaluate(binary->getRHS());
   const Place place = evaluate_place(left);
   if (compound != nullptr) {
-    value = apply(clang::BinaryOperator::getOpForCompoundAssignment(binary->getOpcode()),
-                  load(place, left->getType(), where), value, left->getType(), binary);
+    Value before = load(place, left->getType(), where);
+    const clang::QualType type = compound->getComputationLHSType();
+    if (before.kind == Value::Kind::integer && type->isIntegralOrEnumerationType()) {
+      before = whole(before.integer, type, where);
+    }
+    value = apply(clang::BinaryOperator::getOpForCompoundAssignment(binary->getOpcode()), before, value, type,
+                  compound->getComputationResultType(), where);
+    if (value.kind == Value::Kind::integer) value = whole(value.integer, left->getType(), where);
   }
   store(place, value, where);
   return {place, value};
@@ -141,12 +150,12 @@ Value Interpreter::evaluate_binary(const clang::BinaryOperator* binary) {
   }
   if (binary->isAssignmentOp()) return assign(binary).second;
   const Value a = evaluate(left);
-  return apply(binary->getOpcode(), a, evaluate(binary->getRHS()), left->getType(), binary);
+  return apply(binary->getOpcode(), a, evaluate(binary->getRHS()), left->getType(), binary->getType(),
+               binary->getOperatorLoc());
 }
 
 Value Interpreter::apply(clang::BinaryOperatorKind operation, const Value& a, const Value& b,
-                         clang::QualType operand_type, const clang::Expr* whole) {
-  const clang::SourceLocation where = whole->getExprLoc();
+                         clang::QualType operand_type, clang::QualType result_type, clang::SourceLocation where) {
   const auto refuse = [&]() { return ImportError{where, "this operator cannot be followed"}; };
   if (a.kind == Value::Kind::number && b.kind == Value::Kind::number) {
     const double* const x = constant_value(a.node);
@@ -205,67 +214,14 @@ Value Interpreter::apply(clang::BinaryOperatorKind operation, const Value& a, co
   const bool moves = operation == clang::BO_Add || operation == clang::BO_Sub;
   if (moves && a.kind == Value::Kind::place && b.kind == Value::Kind::integer) {
     const std::int64_t size = cells_of(operand_type->getPointeeType(), context_, where);
-    return Value::pointer({a.place.object, a.place.offset + (operation == clang::BO_Add ? 1 : -1) * b.integer * size});
+    return Value::pointer(moved(a.place, b.integer, operation == clang::BO_Add ? size : -size, where));
   }
   if (operation == clang::BO_Add && a.kind == Value::Kind::integer && b.kind == Value::Kind::place) {
-    const std::int64_t size = cells_of(whole->getType()->getPointeeType(), context_, where);
-    return Value::pointer({b.place.object, b.place.offset + a.integer * size});
+    const std::int64_t size = cells_of(result_type->getPointeeType(), context_, where);
+    return Value::pointer(moved(b.place, a.integer, size, where));
   }
   if (a.kind != Value::Kind::integer || b.kind != Value::Kind::integer) throw refuse();
-  const std::int64_t x = a.integer;
-  const std::int64_t y = b.integer;
-  std::int64_t result = 0;
-  bool overflow = false;
-  switch (static_cast<int>(operation)) {
-    case clang::BO_Add:
-      overflow = __builtin_add_overflow(x, y, &result);
-      break;
-    case clang::BO_Sub:
-      overflow = __builtin_sub_overflow(x, y, &result);
-      break;
-    case clang::BO_Mul:
-      overflow = __builtin_mul_overflow(x, y, &result);
-      break;
-    case clang::BO_Div:
-    case clang::BO_Rem:
-      if (y == 0) throw ImportError{where, "a division by zero"};
-      if (y == -1) return Value::whole(operation == clang::BO_Div ? -x : 0);
-      result = operation == clang::BO_Div ? x / y : x % y;
-      break;
-    case clang::BO_LT:
-      return Value::whole(x < y);
-    case clang::BO_GT:
-      return Value::whole(x > y);
-    case clang::BO_LE:
-      return Value::whole(x <= y);
-    case clang::BO_GE:
-      return Value::whole(x >= y);
-    case clang::BO_EQ:
-      return Value::whole(x == y);
-    case clang::BO_NE:
-      return Value::whole(x != y);
-    case clang::BO_And:
-      return Value::whole(x & y);
-    case clang::BO_Or:
-      return Value::whole(x | y);
-    case clang::BO_Xor:
-      return Value::whole(x ^ y);
-    case clang::BO_Shl:
-    case clang::BO_Shr:
-      if (x < 0 || y < 0 || y > 62 || (operation == clang::BO_Shl && x > (INT64_MAX >> y))) throw refuse();
-      return Value::whole(operation == clang::BO_Shl ? x << y : x >> y);
-    default:
-      throw refuse();
-  }
-  // Wrapping of narrower types is not followed: no loop bound or subscript should rest on it.
-  const bool narrow = whole->getType()->isIntegerType() && context_.getIntWidth(whole->getType()) <= 32;
-  const bool is_unsigned = whole->getType()->isUnsignedIntegerType();
-  if (overflow ||
-      (narrow && (result > (is_unsigned ? UINT32_MAX : INT32_MAX) || result < (is_unsigned ? 0 : INT32_MIN))) ||
-      (is_unsigned && result < 0)) {
-    throw ImportError{where, "a whole number beyond the range of its type"};
-  }
-  return Value::whole(result);
+  return apply_to_integers(operation, a.integer, b.integer, result_type, where);
 }
 
 /// The number that an expression has or, of a place, holds.
@@ -288,7 +244,8 @@ Value Interpreter::evaluate_conditional(const clang::ConditionalOperator* condit
   const NodeId a = number(test->getLHS());
   const NodeId b = number(test->getRHS());
   if (constant_value(a) != nullptr && constant_value(b) != nullptr) {
-    const Value holds = apply(test->getOpcode(), Value::number(a), Value::number(b), test->getLHS()->getType(), test);
+    const Value holds =
+        apply(test->getOpcode(), Value::number(a), Value::number(b), test->getLHS()->getType(), test->getType(), where);
     return chosen(holds.integer != 0);
   }
   // Both sides are evaluated here, one of them there: neither may leave a trace.

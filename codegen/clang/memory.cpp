@@ -19,6 +19,13 @@ const clang::RecordDecl* plain_record(clang::QualType type, clang::SourceLocatio
                                   "followed",
                                   type.getAsString())};
   }
+  if (cxx != nullptr && !cxx->hasTrivialDestructor()) {
+    throw ImportError{where,
+                      fmt::format("an object of type `{}`, whose destructor does something", type.getAsString())};
+  }
+  for (const clang::FieldDecl* field : definition->fields()) {
+    if (field->isBitField()) throw ImportError{where, fmt::format("bit-fields, in type `{}`", type.getAsString())};
+  }
   return definition;
 }
 

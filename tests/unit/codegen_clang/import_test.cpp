@@ -96,9 +96,45 @@ TEST(Import, WritesWhatTheCodeComputes) {
       {"void swap(double& a, double& b) { double t = a; a = b; b = t; }\n"
        "double f(double a, double b) { swap(a, b); return a - 2 * b; }",
        "predicate f(scalar a, b) {\n  sign b - 2 * a as returned\n}\n"},
+      // Whole numbers have their types' ranges: unsigned ones wrap.
+      {"double f(double x, double y) { return (~0u) * x - y; }",
+       "predicate f(scalar x, y) {\n  sign 4294967295 * x - y as returned\n}\n"},
+      {"double f(double x) { return (-1u) * x; }", "predicate f(scalar x) {\n  sign 4294967295 * x as returned\n}\n"},
+      {"double f(double x) { unsigned char c = 200; c += 100; return c * x; }",
+       "predicate f(scalar x) {\n  sign 44 * x as returned\n}\n"},
+      {"double f(double x) { unsigned short c = 65535; c++; c -= 3; return x + c; }",
+       "predicate f(scalar x) {\n  sign x + 65533 as returned\n}\n"},
+      {"double f(double x) { unsigned char c = 3; c -= 7u; return x + c; }",
+       "predicate f(scalar x) {\n  sign x + 252 as returned\n}\n"},
+      {"double f(double x) { unsigned u = 1u << 31; u <<= 1; --u; return x + u; }",
+       "predicate f(scalar x) {\n  sign x + 4294967295 as returned\n}\n"},
+      {"double f(double x) { unsigned char c = 255; return x + (unsigned char)~c + (unsigned char)300; }",
+       "predicate f(scalar x) {\n  sign x + 44 as returned\n}\n"},
+      {"double f(double x) { bool b = true; b += 4; return x + b; }",
+       "predicate f(scalar x) {\n  sign x + 1 as returned\n}\n"},
+      {"constexpr unsigned k = -1; double f(double x) { return x + k; }",
+       "predicate f(scalar x) {\n  sign x + 4294967295 as returned\n}\n"},
+      // A body that is to be seen is what counts, whatever the name.
+      {"extern \"C\" double max(double a, double b) { return a + b; } double f(double a, double b) { return max(a, b); "
+       "}",
+       "predicate f(scalar a, b) {\n  sign a + b as returned\n}\n"},
+      {"extern \"C\" double sqrt(double a) { return a + 1; } double f(double a) { return sqrt(a); }",
+       "predicate f(scalar a) {\n  sign a + 1 as returned\n}\n"},
+      {"extern \"C\" double sqrt(double a); double f(double a) { return sqrt(a); }",
+       "predicate f(scalar a) {\n  sign sqrt(a) as returned\n}\n"},
+      {"namespace std { double abs(double a) { return a - 1; } } double f(double a) { return std::abs(a); }",
+       "predicate f(scalar a) {\n  sign a - 1 as returned\n}\n"},
+      // The right side of an assignment is complete before the left changes.
+      {"struct V { double x, y; }; double f(V v) { v = V{v.y, v.x}; return v.x - 3 * v.y; }",
+       "predicate f(vec2 v) {\n  sign v.y - 3 * v.x as returned\n}\n"},
+      // Constants of all sizes: exponents bound only factors.
+      {"double f(double a) { return a * 0x1p-1074 + 0x1.8p1000; }",
+       "predicate f(scalar a) {\n  sign a * (1 / 2^1074) + 3 * 2^999 as returned\n}\n"},
       // Names that the language has for itself.
       {"double f(double sign, double dot) { double let = sign - dot; return let * let; }",
        "predicate f(scalar sign_2, dot) {\n  let let_2 = sign_2 - dot\n  sign let_2 * let_2 as returned\n}\n"},
+      {"double f(double x, double y) { double α = x - y; double dét = α * x; return dét * dét - α; }",
+       "predicate f(scalar x, y) {\n  let x_2 = x - y\n  let dt = x_2 * x\n  sign dt * dt - x_2 as returned\n}\n"},
   };
   for (const Row& row : table) EXPECT_EQ(predicate_of(row.code), row.predicate) << row.code;
 }
@@ -139,6 +175,51 @@ TEST(Import, SaysWhereAndWhyNot) {
       {"template <class T> T f(T a) { return a; }", "it is a template that nothing instantiates"},
       {"double f(double a) { return a; } float f(float a) { return a; }", "is one of 2 functions of this name"},
       {"double f(double a) { return b; }", "test.cpp:1:29: error: use of undeclared identifier 'b'"},
+      // Whole numbers that are none of their type, or that 64 bits with a sign do not hold.
+      {"double f(double x) { return 18446744073709551615ULL * x; }", "test.cpp:1:29: error: a whole number beyond"},
+      {"constexpr auto k = ~0ull; double f(double x) { return k * x; }", "a whole number beyond the range"},
+      {"double f(double x) { return ~0ull * x; }", "a whole number beyond the range"},
+      {"double f(double x) { int k = 1 << 31; return k * x; }", "test.cpp:1:32: error: a whole number beyond"},
+      {"double f(double x) { int k = 2147483647; ++k; return k * x; }", "a whole number beyond the range"},
+      {"double f(double x) { int k = 2147483647; k += 1; return k * x; }", "a whole number beyond the range"},
+      {"double f(double x) { signed char k = 100; k *= 2; return k * x; }", "a whole number beyond the range"},
+      {"double f(double x) { int k = -2147483647 - 1; return -k * x; }", "a whole number beyond the range"},
+      {"double f(double x) { int k = -2147483647 - 1; return k / -1 * x; }", "a whole number beyond the range"},
+      {"double f(double x) { long k = -9223372036854775807 - 1; return k % -1 * x; }",
+       "a whole number beyond the range"},
+      {"double f(double x) { return __builtin_abs(-2147483647 - 1) * x; }", "a whole number beyond the range"},
+      {"double f(double x) { return (signed char)200 * x; }", "a whole number beyond the range"},
+      {"double f(double x) { int n = 32; return (1u << n) * x; }", "a shift by more than the type's width"},
+      {"double f(double x) { return (unsigned __int128)5 * x; }", "a whole number of more than 64 bits"},
+      {"double f(const double* p) { return p[0x2000000000000001]; }", "a pointer far beyond its object"},
+      {"struct B { unsigned a : 3; }; double f(double x) { B b{5}; b.a += 5; return b.a * x; }",
+       "test.cpp:1:54: error: bit-fields, in type `struct B`"},
+      // What would happen besides the arithmetic.
+      {"struct G { double& r; ~G() { r += 1; } }; double f(double x) { { G g{x}; } return x; }",
+       "an object of type `struct G`, whose destructor does something"},
+      {"struct G { double& r; ~G() { r += 1; } }; double f(double x) { G{x}; return x; }", "whose destructor does"},
+      {"struct G { double& r; ~G() { r += 1; } }; double f(double x) { return (G{x}.r, x); }", "whose destructor does"},
+      {"struct G { double& r; ~G() { r += 1; } }; G g(double& x) { return {x}; }\n"
+       "double f(double x) { g(x); return x; }",
+       "whose destructor does"},
+      {"struct G { double& r; ~G() { r += 1; } }; struct H { G g; }; double f(double x) { H h{{x}}; return x; }",
+       "whose destructor does"},
+      {"struct G { double& r; ~G() { r += 1; } }; double f(double x) { const G& g = G{x}; return x; }",
+       "whose destructor does"},
+      {"void g(double* x) { *x += 1; } double f(double x) { __attribute__((cleanup(g))) double y = x; return y; }",
+       "a variable with a clean-up function"},
+      {"struct A { double x; A(double y) : x(y) {} A(const A& o) : x(o.x + 1) {} }; struct B { A a; };\n"
+       "double f(double x) { B b{A(x)}; B c = b; return c.a.x; }",
+       "a copy of an object with a member"},
+      {"struct V { double x, y; }; double f(V v) { v = V(); return v.x; }", "is read before it is set"},
+      {"extern \"C\" double max(double, double); double f(double a) { return max(a, 1); }",
+       "the body of `max` is not to be seen"},
+      // Constants beyond the language's.
+      {"double f(double x) { return 1.7976931348623157e308 * x; }", "test.cpp:1:52: error: a product or quotient with"},
+      {"double f(double x) { return 1e-310 * x; }", "a product or quotient with the constant 1e-310"},
+      {"double f(double x) { return x / 1e-310; }", "a product or quotient with the constant 1e-310"},
+      {"double f(double x) { return 1e-310 / x; }", "a product or quotient with the constant 1e-310"},
+      {"double f(double x) { return x * (float)(long double)16777217 - (long double)1; }", "a conversion from"},
       {"struct V { double x; float y; }; double f(V v) { return v.x; }", "a struct of different types"},
   };
   for (const Row& row : table) {
@@ -146,6 +227,17 @@ TEST(Import, SaysWhereAndWhyNot) {
     EXPECT_FALSE(import.function) << row.code;
     EXPECT_NE(import.errors.find(row.predicate), std::string::npos) << row.code << '\n' << import.errors;
   }
+}
+
+/// Limits of the language that the interpreter does not know are no internal error.
+TEST(Import, SaysThatAFunctionGoesBeyondTheLanguage) {
+  ImportedFunction function;
+  function.name = "f";
+  function.parameters.push_back({"x", {}, 0});
+  const dsl::NodeId product =
+      function.graph.binary(dsl::Op::mul, function.graph.input(0), function.graph.constant(1e-310));
+  function.outputs.push_back({"", {0}, false, {product}});
+  EXPECT_THROW(import_text(function, "test.cpp"), InexpressibleFunction);
 }
 
 TEST(Import, ShowsTheLineAndACaret) {
