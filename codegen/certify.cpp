@@ -209,17 +209,27 @@ dsl::Predicate with_assumed_ranges(const dsl::Predicate& predicate, double range
 
 std::string certify(const dsl::Program& program, const CertifyRequest& request, dsl::Diagnostics& diagnostics,
                     std::vector<Certificate>& certificates) {
-  Certifier certifier(request, certificates);
-  for (const dsl::Predicate& predicate : program.predicates) {
-    for (const BoundMode mode : request.modes) {
-      for (const Precision precision : request.precisions) {
-        const dsl::Predicate ranged = with_assumed_ranges(predicate, request.assumed_range);
-        const std::string error = certifier.run(ranged, mode, precision, diagnostics);
-        if (!error.empty()) return error;
+  const auto for_each_combination = [&](const auto& act) -> std::string {
+    for (const dsl::Predicate& predicate : program.predicates) {
+      const dsl::Predicate ranged = with_assumed_ranges(predicate, request.assumed_range);
+      for (const BoundMode mode : request.modes) {
+        for (const Precision precision : request.precisions) {
+          if (std::string error = act(ranged, mode, precision); !error.empty()) return error;
+        }
       }
     }
-  }
-  return "";
+    return "";
+  };
+  // All errors first: where there is one, nothing is written.
+  for_each_combination([&](const dsl::Predicate& predicate, BoundMode mode, Precision precision) -> std::string {
+    add_bounds(predicate, mode, precision, diagnostics, request.weakening);
+    return "";
+  });
+  if (diagnostics.has_errors()) return "";
+  Certifier certifier(request, certificates);
+  return for_each_combination([&](const dsl::Predicate& predicate, BoundMode mode, Precision precision) {
+    return certifier.run(predicate, mode, precision, diagnostics);
+  });
 }
 
 bool unproved(const std::vector<Certificate>& certificates) {

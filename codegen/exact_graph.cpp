@@ -123,18 +123,21 @@ ExactId ExactGraph::raised(ExactId id, int degree) {
   return intern({.op = ExactOp::raised, .a = id, .value = degree - n.degree});
 }
 
+/// id * number, number > 0, in parts of at most 62 bits: high 2^62 + low, where high of 126 bits may have 64.
+ExactId ExactGraph::multiplied(ExactId id, Int128 number) {
+  constexpr Int128 limit = Int128{1} << 62;
+  if (number == 1) return id;
+  if (number < limit) {
+    return intern({.op = ExactOp::multiple, .a = id, .value = static_cast<std::int64_t>(number)});
+  }
+  const ExactId above = intern({.op = ExactOp::shifted, .a = multiplied(id, number / limit), .value = 62});
+  const Int128 low = number % limit;
+  return low == 0 ? above : intern({.op = ExactOp::sum, .a = above, .b = multiplied(id, low)});
+}
+
 /// id * whole, a positive whole number.
 ExactId ExactGraph::multiplied(ExactId id, const Rational& whole) {
-  Int128 odd = whole.odd_numerator();
-  constexpr Int128 limit = Int128{1} << 62;
-  if (odd >= limit) {  // in two parts: high 2^62 + low
-    const auto high = static_cast<std::int64_t>(odd / limit), low = static_cast<std::int64_t>(odd % limit);
-    const ExactId part = high == 1 ? id : intern({.op = ExactOp::multiple, .a = id, .value = high});
-    const ExactId above = intern({.op = ExactOp::shifted, .a = part, .value = 62});
-    id = intern({.op = ExactOp::sum, .a = above, .b = intern({.op = ExactOp::multiple, .a = id, .value = low})});
-  } else if (odd > 1) {
-    id = intern({.op = ExactOp::multiple, .a = id, .value = static_cast<std::int64_t>(odd)});
-  }
+  id = multiplied(id, whole.odd_numerator());
   return whole.exponent() == 0 ? id : intern({.op = ExactOp::shifted, .a = id, .value = whole.exponent()});
 }
 

@@ -89,6 +89,7 @@ class ExactGraph {
   Pair aligned(const ScaledNode& x, const ScaledNode& y);
   ExactId raised(ExactId id, int degree);
   ExactId multiplied(ExactId id, const dsl::Rational& whole);
+  ExactId multiplied(ExactId id, dsl::Int128 number);
   ScaledNode checked(ScaledNode x);
   ExactId intern(ExactNode node);
 

@@ -97,6 +97,8 @@ GappaAnswer read_gappa_answer(const std::string& text, int exit_status) {
       answer.unproved += line + "\n";
     }
   }
+  // Every script asks for the bound that Gappa finds itself: a proof without it is no answer of Gappa's.
+  if (answer.status == GappaAnswer::Status::proved && !answer.found) answer.status = GappaAnswer::Status::failed;
   return answer;
 }
 

@@ -186,11 +186,13 @@ Interval IntervalBounds::absolute(const Interval& a) {
   return {extreme(Op::max, {a.lo, graph_.neg(a.hi), zero_}), graph_.binary(Op::max, negative, a.hi)};
 }
 
-/// Upwards exact; downwards it loses half of eta at most.
+/// Upwards exact, but an overflow must show: x - x is 0 for a finite x, else NaN. Downwards it loses half of eta at
+/// most.
 Interval IntervalBounds::scaled(const Interval& a, int exponent) {
   const NodeId lo = graph_.mul_pow2(a.lo, exponent);
   const NodeId hi = graph_.mul_pow2(a.hi, exponent);
-  if (exponent >= 0 || weakened(Weakening::drop_underflow)) return {lo, hi};
+  if (exponent > 0) return {graph_.add(lo, r_.zero_if_finite(lo)), graph_.add(hi, r_.zero_if_finite(hi))};
+  if (exponent == 0 || weakened(Weakening::drop_underflow)) return {lo, hi};
   return {graph_.sub(lo, eta_), graph_.add(hi, eta_)};
 }
 

@@ -42,7 +42,8 @@ NearNumber product(const NearNumber& x, const NearNumber& y) {
 
 NearNumber quotient(const NearNumber& x, double constant) {
   const double q = x.value / constant;
-  if (std::fma(-q, constant, x.value) == 0 && x.error == 0 && std::abs(q) > 0x1p-900) return {q, 0};
+  if (std::fma(-q, constant, x.value) == 0 && x.error == 0 && std::abs(q) > 0x1p-900 && std::abs(x.value) > 0x1p-900)
+    return {q, 0};
   const double ulp = std::nextafter(std::abs(q), infinity) - std::abs(q);
   return {q, add_up(div_up(x.error, std::abs(constant)), ulp)};
 }

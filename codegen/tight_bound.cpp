@@ -181,6 +181,15 @@ bool TightBounds::overflow_shows(const Node& n) const {
   return true;
 }
 
+/// Whether the value may be the infinity of a scaling upwards (scaled down again or not) that its bound does not show.
+/// max and min would forget it: they get a guard. (An infinite input is the infinity it says.)
+bool TightBounds::hides_overflow(NodeId id) const {
+  if (overflow_shows_[static_cast<std::size_t>(id)]) return false;
+  const Node& n = node(id);
+  if (n.op == Op::mul_pow2 && n.index > 0 && !(use_ranges_ && limit(id) < format_.largest / 2)) return true;
+  return (n.op == Op::mul_pow2 || n.op == Op::neg || n.op == Op::abs) && hides_overflow(n.a);
+}
+
 /// R as one node: of an output, or of an operand that a guard tests.
 NodeId TightBounds::output_bound(NodeId id) {
   const Error& e = error(id);

@@ -197,7 +197,11 @@ Error TightBounds::constant_quotient(NodeId id, const Node& n) {
 Error TightBounds::extremum(const Node& n) {
   const Error& ea = error(n.a);
   const Error& eb = error(n.b);
-  if (ea.exact() && eb.exact()) return {};
+  NodeId guard = no_node;
+  for (const NodeId operand : {n.a, n.b}) {
+    if (hides_overflow(operand)) guard = r_.plus(guard, r_.zero_if_finite(value(operand)));
+  }
+  if (ea.exact() && eb.exact() && guard == no_node) return {};
   Error e;
   const NodeId ra = materialise(ea);
   const NodeId rb = materialise(eb);
@@ -206,6 +210,7 @@ Error TightBounds::extremum(const Node& n) {
   }
   e.underflow = use_ranges_ ? std::max(ea.underflow, eb.underflow) : 0;
   e.slack_used = std::max(ea.slack_used, eb.slack_used);
+  if (guard != no_node) e.terms.push_back({guard, false, 1});
   return e;
 }
 

@@ -79,6 +79,7 @@ class TightBounds {
   void fold_if_shared(dsl::NodeId id);
   dsl::NodeId output_bound(dsl::NodeId id);
   bool overflow_shows(const dsl::Node& n) const;
+  bool hides_overflow(dsl::NodeId id) const;
 
   const Error& error(dsl::NodeId id) const { return errors_[static_cast<std::size_t>(id)]; }
   dsl::NodeId value(dsl::NodeId id) const { return values_[static_cast<std::size_t>(id)]; }

@@ -58,7 +58,23 @@ NearestOnEdge<Real> nearest_on_edge(const Position<Real>& p, const Position<Real
   return nearest;
 }
 
-/// Weights by the normal; none where it degenerates: where |n|^2 is not certainly positive.
+/// Brings the weights of one simplex to [0, 1] and to sum 1. False if they are off by more than rounding explains
+/// (sqrt(eps)): the normal is then too small, or the middle of the interval too far from the contact, to give weights.
+template <class Real>
+bool normalise_weights(Real* weights, std::size_t count) {
+  const Real noise = std::sqrt(std::numeric_limits<Real>::epsilon());
+  Real sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(weights[i] >= -noise && weights[i] <= 1 + noise)) return false;
+    weights[i] = std::clamp(weights[i], Real(0), Real(1));
+    sum += weights[i];
+  }
+  if (!(std::abs(sum - 1) <= static_cast<Real>(count) * noise)) return false;
+  for (std::size_t i = 0; i < count; ++i) weights[i] = std::min(weights[i] / sum, Real(1));
+  return true;
+}
+
+/// Weights by the normal; none where it degenerates: where |n|^2 is not certainly positive, or too small to tell.
 template <class Real>
 std::optional<std::array<Real, 4>> weights_by_normal(Kind kind, const Moments<Real>& moments) {
   Bounded<Real> m[4][3];
@@ -69,10 +85,11 @@ std::optional<std::array<Real, 4>> weights_by_normal(Kind kind, const Moments<Re
   const auto finish = [&](const Bounded<Real>& square, const Bounded<Real>* w, std::size_t first,
                           std::size_t count) -> std::optional<std::array<Real, 4>> {
     if (sign(square) != Sign::positive) return std::nullopt;
-    for (std::size_t i = 0; i < count; ++i) {
-      weights[first + i] = std::clamp(w[i].value / square.value, Real(0), Real(1));
-    }
-    return weights;
+    for (std::size_t i = 0; i < count; ++i) weights[first + i] = w[i].value / square.value;
+    const bool normal = kind == Kind::vertex_face
+                            ? normalise_weights(&weights[1], 3)
+                            : normalise_weights(&weights[0], 2) && normalise_weights(&weights[2], 2);
+    return normal ? std::optional(weights) : std::nullopt;
   };
   if (kind == Kind::vertex_face) {
     const auto n = generated::safe_face_weights<bound::tight, Real>::evaluate_in_range(m[0], m[1], m[2]);

@@ -99,7 +99,8 @@ TEST_F(Imported, RangeLoops) {
   for (int i = 0; i < cases; ++i) {
     std::array<double, 5> v;
     fill(v.data(), 5);
-    expect_same(generated::sum_of_squares<none, double>::evaluate(v.data()).returned.value, imported::sum_of_squares(v));
+    expect_same(generated::sum_of_squares<none, double>::evaluate(v.data()).returned.value,
+                imported::sum_of_squares(v));
   }
 }
 

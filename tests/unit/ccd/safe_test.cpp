@@ -370,6 +370,30 @@ TEST(SafeScene, BoundIsSoundAndAnswersDoNotDependOnIt) {
 
 // --- Time and weights ---------------------------------------------------------------------------------------------
 
+void expect_weights(Kind kind, const std::array<double, 4>& w, const std::string& what) {
+  for (const double x : w) EXPECT_TRUE(x >= 0 && x <= 1) << what;
+  if (kind == Kind::vertex_face) {
+    EXPECT_EQ(w[0], 1) << what;
+    EXPECT_NEAR(w[1] + w[2] + w[3], 1, 1e-14) << what;
+  } else {
+    EXPECT_NEAR(w[0] + w[1], 1, 1e-14) << what;
+    EXPECT_NEAR(w[2] + w[3], 1, 1e-14) << what;
+  }
+}
+
+// At the contact the triangle is just opening, and its normal is all rounding.
+TEST(SafeContact, WeightsOfNormalsThatAreRoundingErrors) {
+  const Query opening{0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 2, 2, 0};
+  const Query sheared{-1, -2, -3, 1, -1, 1, -1, -2, -3, 1, -1, 1, 1, -1, 1, -1, -1, -4, -1, 1, 0, -1, -1, -2};
+  for (const Query& query : {opening, sheared}) {
+    for (const Method method : safe_methods) {
+      const auto contact = first_contact(Kind::vertex_face, query.data(), method);
+      ASSERT_TRUE(contact.has_value());
+      expect_weights(Kind::vertex_face, contact->weights, std::string(name(method)));
+    }
+  }
+}
+
 TEST(SafeContact, TimeIsNeverLateAndAnswersAgree) {
   for (const Kind kind : kinds) {
     ContactGenerator generator(51);
@@ -385,6 +409,7 @@ TEST(SafeContact, TimeIsNeverLateAndAnswersAgree) {
         EXPECT_LE(contact->earliest, exact->upper) << name(method);
         EXPECT_LE(contact->earliest, contact->latest);
         close += contact->earliest >= exact->lower - 1e-6;
+        expect_weights(kind, contact->weights, std::string(name(method)));
       }
     }
     EXPECT_GT(close, 2 * count * 9 / 10);
@@ -415,15 +440,7 @@ TEST(SafeContact, WeightsArePointsOfTheFeatures) {
   for (const Hole& hole : holes()) {  // the normal vanishes: still weights, with the right sums
     const auto contact = first_contact(hole.kind, hole.points.data());
     ASSERT_TRUE(contact.has_value()) << hole.what;
-    const auto& w = contact->weights;
-    for (const double x : w) EXPECT_TRUE(x >= 0 && x <= 1) << hole.what;
-    if (hole.kind == Kind::vertex_face) {
-      EXPECT_EQ(w[0], 1);
-      EXPECT_NEAR(w[1] + w[2] + w[3], 1, 1e-9) << hole.what;
-    } else {
-      EXPECT_NEAR(w[0] + w[1], 1, 1e-9) << hole.what;
-      EXPECT_NEAR(w[2] + w[3], 1, 1e-9) << hole.what;
-    }
+    expect_weights(hole.kind, contact->weights, hole.what);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <tightrope/exact.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -14,6 +15,7 @@
 #include "codegen/simplify.h"
 #include "dsl/evaluate.h"
 #include "tests/unit/codegen/random_predicate.h"
+#include "tests/unit/codegen/test_program.h"
 
 namespace tightrope::codegen {
 namespace {
@@ -149,6 +151,32 @@ TEST(Bounds, NonFiniteInputsHaveNoSign) {
       const double value = computed[static_cast<std::size_t>(node.value)];
       const double bound = computed[static_cast<std::size_t>(node.bound)];
       EXPECT_FALSE(value > bound || value < -bound) << value << " +- " << bound;
+    }
+  }
+}
+
+// 4 x overflows, comes back by a scaling down as an infinity, and min forgets it. The exact difference is negative.
+TEST(Bounds, OverflowThatMinForgetsHasNoSign) {
+  const std::string lost = "predicate f(scalar x, y, z) { sign min(rounded(4 * x) / 4, y) - z as d }";
+  const std::string deep =
+      "predicate f(scalar x, y, z) { let w = rounded(4 * x) sign -max(-rounded(w / 8), -y) - z as d }";
+  const std::string bounded = "predicate f(bounded scalar x, scalar y, z) { sign min(rounded(4 * x) / 4, y) - z as d }";
+  struct Case {
+    std::string text;
+    std::array<double, 3> inputs;
+  };
+  for (const Case& c : {Case{lost, {1e308, 1.5e308, 1.2e308}}, Case{deep, {1e308, 6e307, 5.5e307}},
+                        Case{bounded, {1e308, 1.5e308, 1.2e308}}}) {
+    const dsl::Program program = tightrope::testing_support::program(c.text);
+    for (const BoundMode mode : {BoundMode::safe, BoundMode::tight, BoundMode::interval}) {
+      dsl::Diagnostics diagnostics;
+      const BoundedPredicate result = add_bounds(program.predicates.front(), mode, Precision::binary64, diagnostics);
+      ASSERT_FALSE(diagnostics.has_errors());
+      const std::array<double, 6> slots = {c.inputs[0], c.inputs[1], c.inputs[2], 1, 0, 0};
+      const std::vector<double> values = dsl::evaluate<double>(result.graph, slots);
+      const BoundedNode& d = result.stages.front().outputs.front().elements.front();
+      const double value = values[static_cast<std::size_t>(d.value)], bound = values[static_cast<std::size_t>(d.bound)];
+      EXPECT_FALSE(value > bound) << c.text << " " << name(mode);
     }
   }
 }
