@@ -20,6 +20,7 @@
 #define TIGHTROPE_OUT_OF_LINE
 #endif
 
+TIGHTROPE_PRECISE_BEGIN
 namespace tightrope {
 
 /// The sign of an exact quantity. `invalid`: there is none, because an input is infinite or NaN, a divisor is zero or a
@@ -268,3 +269,4 @@ struct DyadicNumbers : ExactOperations<DyadicNumbers> {
 };
 
 }  // namespace tightrope
+TIGHTROPE_PRECISE_END
