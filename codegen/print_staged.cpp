@@ -306,9 +306,9 @@ std::string print_staged_header(std::span<const StagedPredicate> predicates, con
   return head +
          "#pragma once\n\n#include <tightrope/exact_sign.h>\n\n"
          "// The stages, each a predicate of its own.\n"
-         "namespace tightrope::generated_stages {\n" +
+         "TIGHTROPE_PRECISE_BEGIN\nnamespace tightrope::generated_stages {\n" +
          parts + "\n}  // namespace tightrope::generated_stages\n\nnamespace tightrope::generated {\n" + body +
-         "\n}  // namespace tightrope::generated\n";
+         "\n}  // namespace tightrope::generated\nTIGHTROPE_PRECISE_END\n";
 }
 
 }  // namespace tightrope::codegen
