@@ -31,10 +31,10 @@ MovingPoint<Real> moving_point(const Real* points, int index) {
 
 /// The pairs of points of different features.
 inline std::span<const std::array<int, 2>> pairs_of_features(Kind kind) {
-  using Pair = std::array<int, 2>;
-  static constexpr std::array<Pair, 3> vertex_face{{{0, 1}, {0, 2}, {0, 3}}};
-  static constexpr std::array<Pair, 4> edge_edge{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
-  return kind == Kind::vertex_face ? std::span<const Pair>(vertex_face) : std::span<const Pair>(edge_edge);
+  using Points = std::array<int, 2>;
+  static constexpr std::array<Points, 3> vertex_face{{{0, 1}, {0, 2}, {0, 3}}};
+  static constexpr std::array<Points, 4> edge_edge{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
+  return kind == Kind::vertex_face ? std::span<const Points>(vertex_face) : std::span<const Points>(edge_edge);
 }
 
 /// Largest difference of two points' coordinates at the ends of the step: an estimate that chooses, never decides.

@@ -1,5 +1,6 @@
 #pragma once
-/// The exact stage of method `tightrope`: the first time of contact of any pair of features, in exact arithmetic.
+/// The exact stage of method `tightrope`: is there contact, and when first? Every sign that decides is exact
+/// (MATH 3.6); every degenerate case is decided. Coordinates must be finite (the program ends otherwise).
 
 #include <optional>
 
@@ -8,22 +9,22 @@
 
 namespace tightrope::ccd {
 
-/// lower <= time <= upper
+/// lower <= time <= upper, in steps.
 struct TimeBracket {
-  double lower;
-  double upper;
+  double lower, upper;
 };
 
-/// Empty: no contact in [0, t_max], exactly. Else the first contact, with upper - lower <= tolerance, or, where that is
-/// less than the distance of two doubles, lower the largest double not above it and upper the smallest not below it.
-/// lower is 0 only if the contact is at 0 or before the smallest positive double. Coordinates must be finite.
+/// The time t* of the first contact; empty if there is none in [0, t_max]. upper - lower <= tolerance or, if
+/// `tolerance` is smaller than doubles are apart, lower is the largest double not above t* and upper the smallest not
+/// below it. lower is 0 only if t* is 0 or below the smallest positive double. `points`: those of the pair (impact.h),
+/// 3 coordinates each.
 std::optional<TimeBracket> exact_first_contact(Pair pair, const double* points, double tolerance, double t_max);
 
-/// Is there contact in [0, 1]? Coordinates must be finite.
+/// Is there contact in [0, 1]?
 bool exact_contact(Pair pair, const double* points);
 
-/// Sharpens a bracket in which Y changes its sign exactly once, at a contact and with no earlier one, until it is what
-/// `exact_first_contact` returns; by exact signs of Y at doubles alone.
+/// A bracket as above of the only time in `bracket` at which the four points are coplanar, Y having opposite signs
+/// before and after it in `bracket`. Nothing else is asked: whether there is contact is known.
 TimeBracket sharpened(Kind kind, const double* points, TimeBracket bracket, double tolerance);
 
 }  // namespace tightrope::ccd

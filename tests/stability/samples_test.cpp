@@ -1,35 +1,18 @@
 /// The public CCD benchmark's sample queries [Wang, Ferguson, Schneider, Jiang, Attene, Panozzo 2021], where they are:
 /// the folder named by TIGHTROPE_SAMPLE_QUERIES, else ../shared/data/sample-queries beside the repository.
 
+#include "tests/stability/samples.h"
+
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
-
 #include "scenes/truth.h"
-#include "tests/stability/query_folder.h"
 #include "tests/stability/show_query.h"
 
 namespace tightrope::ccd {
 namespace {
 
-std::optional<std::string> sample_folder() {
-  const char* named = std::getenv("TIGHTROPE_SAMPLE_QUERIES");
-  const std::string folder = named != nullptr ? named : TIGHTROPE_SOURCE_DIR "/../shared/data/sample-queries";
-  if (named == nullptr && !std::filesystem::is_directory(folder)) return std::nullopt;
-  return folder;
-}
-
-class Samples : public testing::Test {
+class Samples : public test::SamplesFixture {
  protected:
-  void SetUp() override {
-    const auto folder = sample_folder();
-    if (!folder) GTEST_SKIP() << "skipped: no sample queries (TIGHTROPE_SAMPLE_QUERIES is not set)";
-    queries_ = queries_below(*folder);
-    ASSERT_GT(queries_[0].size() + queries_[1].size(), 0U);
-  }
-
   struct Counts {
     std::size_t false_positives = 0;
     std::size_t false_negatives = 0;
@@ -46,8 +29,6 @@ class Samples : public testing::Test {
     }
     return counts;
   }
-
-  std::array<QueryBlock, 2> queries_;
 };
 
 TEST_F(Samples, TheOracleAgreesWithEveryTruth) {
