@@ -1,7 +1,11 @@
 #include "ccd/impact/exact_polynomials.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "edge_edge.exact.double.h"
 #include "exact_classification.exact.double.h"
