@@ -9,7 +9,9 @@
 #include <optional>
 #include <sstream>
 
+#include "codegen/accuracy_chart.h"
 #include "codegen/certify.h"
+#include "codegen/charts/write_chart.h"
 #include "codegen/compile.h"
 #include "codegen/gappa.h"
 #include "codegen/import_command.h"
@@ -93,6 +95,8 @@ struct Arguments {
   bool fma = false;
   bool tests = false;
   bool measure = false;
+  std::string chart;
+  bool bound_given = false;
 };
 
 std::string interpret(const Arguments& arguments, CompileRequest& request) {
@@ -177,6 +181,28 @@ int run_compile(const Arguments& arguments) {
   return done;
 }
 
+/// Writes the chart that `report` was asked for. `program` as loaded.
+int write_accuracy_chart(const Arguments& arguments, CompileRequest request, dsl::Program program,
+                         const dsl::SourceMap& sources) {
+  AccuracyRequest accuracy;
+  if (!arguments.bound_given) request.modes = accuracy.modes;
+  request.only_applicable_modes = !arguments.bound_given || arguments.bound == "all";
+  for (dsl::Predicate& p : program.predicates) p = with_assumed_ranges(p, arguments.report_range.value_or(1));
+  accuracy.modes = modes_of(request, program);
+  std::erase_if(accuracy.modes, [](BoundMode mode) {
+    return mode == BoundMode::none || mode == BoundMode::exact || mode == BoundMode::staged;
+  });
+  if (accuracy.modes.empty()) return usage_error("--chart: no bounds to draw; give --bound safe, tight, static, ...");
+  accuracy.precisions = request.precisions;
+  accuracy.gappa = find_program("gappa");
+  accuracy.source = std::filesystem::path(request.file).filename().string();
+  dsl::Diagnostics diagnostics;
+  const charts::Chart chart = accuracy_chart(program, accuracy, diagnostics);
+  if (diagnostics.has_errors()) return program_error(diagnostics, sources);
+  const std::string error = charts::write_chart(chart, arguments.chart);
+  return error.empty() ? done : usage_error(error);
+}
+
 int run_report(const Arguments& arguments) {
   CompileRequest request;
   if (const std::string error = interpret(arguments, request); !error.empty()) return usage_error(error);
@@ -189,10 +215,14 @@ int run_report(const Arguments& arguments) {
       return usage_error(fmt::format("--bound: mode {} has no bounds to report", name(mode)));
     }
   }
+  if (!arguments.chart.empty()) {
+    if (const std::string error = charts::check_chart_file(arguments.chart); !error.empty()) return usage_error(error);
+  }
   dsl::SourceMap sources;
   dsl::Diagnostics diagnostics;
   dsl::Program program = load(request, sources, diagnostics);
   if (diagnostics.has_errors()) return program_error(diagnostics, sources);
+  const dsl::Program as_loaded = program;
   if (arguments.report_range) {
     if (!(*arguments.report_range > 0)) return usage_error("--assume-range takes a positive number");
     for (dsl::Predicate& p : program.predicates) p = with_assumed_ranges(p, *arguments.report_range);
@@ -201,6 +231,10 @@ int run_report(const Arguments& arguments) {
   if (diagnostics.has_errors()) return program_error(diagnostics, sources);
   const std::string text =
       report(program, bounded, {arguments.format == "json", arguments.format == "table", arguments.measure});
+  if (!arguments.chart.empty()) {
+    const int status = write_accuracy_chart(arguments, request, as_loaded, sources);
+    if (status != done) return status;
+  }
   std::fputs(text.c_str(), stdout);
   return done;
 }
@@ -289,7 +323,14 @@ int run_command(int argc, const char* const* argv) {
   report.add_option("--assume-range", arguments.report_range,
                     "range of the inputs that declare none (else they have none)");
   report.add_flag("--measure", arguments.measure, "also compare the bounds with true errors on random inputs");
-  report.callback([&] { run = run_report; });
+  report.add_option(
+      "--chart", arguments.chart,
+      "also draw the bounds (safe, tight and static without --bound) and Gappa's against true errors, over "
+      "the magnitude of the inputs: a .svg, .png or .html file");
+  report.callback([&] {
+    arguments.bound_given = report.count("--bound") > 0;
+    run = run_report;
+  });
 
   CLI::App& certify =
       *app.add_subcommand("certify", "Write Gappa scripts that claim the bounds, and run Gappa on them");

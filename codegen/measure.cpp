@@ -29,6 +29,8 @@ struct Collected {
   OutputMeasure measure;
   std::vector<double> ratios;
   std::vector<double> published;
+  std::vector<double> bounds;
+  std::vector<double> errors;
 };
 
 /// Uniform in [-1, 1], every bit random.
@@ -43,7 +45,7 @@ Real uniform(std::mt19937_64& random) {
 
 /// Input slots, then the slots of their bounds (0: bounded inputs come without error).
 template <class Real>
-std::vector<Real> draw(const dsl::Predicate& predicate, Sampling sampling, std::mt19937_64& random) {
+std::vector<Real> draw(const dsl::Predicate& predicate, Sampling sampling, double scale, std::mt19937_64& random) {
   const std::size_t n = predicate.slots.size();
   std::vector<Real> slots(2 * n, Real(0));
   const double largest = std::numeric_limits<Real>::max();
@@ -57,7 +59,7 @@ std::vector<Real> draw(const dsl::Predicate& predicate, Sampling sampling, std::
     }
     if (parameter.range) x *= static_cast<Real>(std::min(*parameter.range, largest / 2));
     while (std::abs(static_cast<double>(x)) > parameter.range.value_or(std::numeric_limits<double>::infinity())) x /= 2;
-    slots[i] = x;
+    slots[i] = x * static_cast<Real>(scale);
   }
   return slots;
 }
@@ -133,6 +135,8 @@ void add_sample(Collected& collected, double value, double bound, const Enclosur
     return;
   }
   const DyadicRatio error = abs(Enclosure(value) - exact).lower();
+  collected.bounds.push_back(bound);
+  collected.errors.push_back(error.to_double());
   const DyadicRatio margin = DyadicRatio(bound) - error;
   if (margin.sign() < 0) m.sound = false;
   m.least_margin = m.samples - m.not_finite == 1 ? margin.to_double() : std::min(m.least_margin, margin.to_double());
@@ -148,12 +152,17 @@ void add_sample(Collected& collected, double value, double bound, const Enclosur
 OutputMeasure finish(Collected& collected) {
   OutputMeasure m = collected.measure;
   std::sort(collected.ratios.begin(), collected.ratios.end());
-  std::sort(collected.published.begin(), collected.published.end());
+  for (std::vector<double>* values : {&collected.published, &collected.bounds, &collected.errors}) {
+    std::sort(values->begin(), values->end());
+  }
   if (m.samples > 0) m.definite /= m.samples;
   m.median_ratio = quantile(collected.ratios, 0.5);
   m.p99_ratio = quantile(collected.ratios, 0.99);
   m.least_ratio = quantile(collected.ratios, 0);
   m.greatest_ratio = quantile(collected.ratios, 1);
+  m.median_bound = quantile(collected.bounds, 0.5);
+  m.median_error = quantile(collected.errors, 0.5);
+  m.greatest_error = quantile(collected.errors, 1);
   m.published_median = quantile(collected.published, 0.5);
   m.published_greatest = quantile(collected.published, 1);
   return m;
@@ -161,14 +170,14 @@ OutputMeasure finish(Collected& collected) {
 
 template <class Real>
 std::vector<StageMeasure> measure_real(const dsl::Predicate& predicate, const BoundedPredicate& bounded,
-                                       Sampling sampling, int samples) {
+                                       Sampling sampling, int samples, double scale) {
   std::mt19937_64 random(2015);  // the year of the paper
   const double published_floor = std::ldexp(1.0, std::is_same_v<Real, double> ? -900 : -100);
   const std::size_t inputs = predicate.slots.size();
   std::vector<std::vector<Collected>> collected;
   for (const dsl::Stage& stage : predicate.stages) collected.emplace_back(stage.outputs.size());
   for (int n = 0; n < samples; ++n) {
-    const std::vector<Real> slots = draw<Real>(predicate, sampling, random);
+    const std::vector<Real> slots = draw<Real>(predicate, sampling, scale, random);
     std::vector<Enclosure> exact_slots;
     for (const Real x : slots) exact_slots.emplace_back(static_cast<double>(x));
     const auto exact = dsl::evaluate<Enclosure>(predicate.graph, exact_slots);
@@ -200,9 +209,9 @@ std::vector<StageMeasure> measure_real(const dsl::Predicate& predicate, const Bo
 const char* name(Sampling sampling) { return sampling == Sampling::spread ? "spread" : "close"; }
 
 std::vector<StageMeasure> measure(const dsl::Predicate& predicate, const BoundedPredicate& bounded, Precision precision,
-                                  Sampling sampling, int samples) {
-  return precision == Precision::binary64 ? measure_real<double>(predicate, bounded, sampling, samples)
-                                          : measure_real<float>(predicate, bounded, sampling, samples);
+                                  Sampling sampling, int samples, double scale) {
+  return precision == Precision::binary64 ? measure_real<double>(predicate, bounded, sampling, samples, scale)
+                                          : measure_real<float>(predicate, bounded, sampling, samples, scale);
 }
 
 }  // namespace tightrope::codegen

@@ -26,9 +26,12 @@ struct OutputMeasure {
   double p99_ratio = 0;
   double least_ratio = 0;  ///< at least 1, or the bound is broken
   double greatest_ratio = 0;
-  double least_margin = 0;      ///< min of bound - |error| over all samples, exact but for one rounding; never below 0
-  bool sound = true;            ///< no sample with |error| > bound, decided exactly
-  double published_median = 0;  ///< bound / bound of the published TightBound rules on the same operations
+  double least_margin = 0;  ///< min of bound - |error| over all samples, exact but for one rounding; never below 0
+  bool sound = true;        ///< no sample with |error| > bound, decided exactly
+  double median_bound = 0;  ///< of all samples that are finite
+  double median_error = 0;
+  double greatest_error = 0;
+  double published_median = 0;    ///< bound / bound of the published TightBound rules on the same operations
   double published_greatest = 0;  ///< the same, where the published bound exceeds 2^-900 (2^-100 in single precision)
 };
 
@@ -37,8 +40,9 @@ struct StageMeasure {
 };
 
 /// Measures the bounds of `bounded` (one of `predicate` in this precision), whose exact values are those of
-/// `predicate.graph`. Seeded: the same numbers in every run.
+/// `predicate.graph`. All inputs are multiplied by `scale`, a power of two, at most 1. Seeded: the same numbers in
+/// every run, whatever the mode.
 std::vector<StageMeasure> measure(const dsl::Predicate& predicate, const BoundedPredicate& bounded, Precision precision,
-                                  Sampling sampling, int samples);
+                                  Sampling sampling, int samples, double scale = 1);
 
 }  // namespace tightrope::codegen

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
+#include "codegen/charts/write_chart.h"
+#include "command/chart.h"
 #include "command/choices.h"
 #include "command/command.h"
 #include "command/evaluation.h"
@@ -17,12 +20,15 @@ struct EvaluateOptions {
   std::string kind;
   std::string real = "double";
   std::string format;
+  std::string chart;
   std::vector<std::string> paths;
 };
 
-TruthSource truth_source(const std::string& text) {
-  if (text == "exact") return TruthSource::exact;
-  return text == "file" ? TruthSource::file : TruthSource::file_if_told;
+/// A chart needs a truth: where the files tell none and nothing was asked for, it is decided.
+TruthSource truth_source(const EvaluateOptions& options) {
+  if (options.truth == "exact") return TruthSource::exact;
+  if (options.truth == "file") return TruthSource::file;
+  return options.chart.empty() ? TruthSource::file_if_told : TruthSource::file_or_exact;
 }
 
 std::vector<Precision> precisions(const std::string& real) {
@@ -50,18 +56,37 @@ void tell_notes(const Evaluation& evaluation) {
   if (!known) warn("the truth is not known, a file tells none; --truth exact decides the queries exactly");
 }
 
+/// "cloth-fold.h5, sample-queries": without the folders above them, which are of no interest in a chart.
+std::string names_of(const std::vector<std::string>& paths) {
+  std::string names;
+  for (const std::filesystem::path path : paths) {
+    const auto last = path.has_filename() ? path : path.parent_path();
+    names += (names.empty() ? "" : ", ") + last.filename().string();
+  }
+  return names;
+}
+
 int run(const EvaluateOptions& options) {
   auto chosen = chosen_methods(options.methods);
   if (auto* wrong = std::get_if<std::string>(&chosen)) return fail(*wrong);
+  if (!options.chart.empty()) {
+    if (const std::string wrong = charts::check_chart_file(options.chart); !wrong.empty()) return fail(wrong);
+  }
   const EvaluationRequest request{.paths = options.paths,
                                   .kind = chosen_kind(options.kind),
                                   .methods = std::get<std::vector<Method>>(std::move(chosen)),
                                   .precisions = precisions(options.real),
-                                  .truth = truth_source(options.truth)};
+                                  .truth = truth_source(options)};
   const auto outcome = evaluate(request);
   if (const auto* wrong = std::get_if<FileError>(&outcome)) return fail(wrong->message);
   const auto& evaluation = std::get<Evaluation>(outcome);
   tell_notes(evaluation);
+  if (!options.chart.empty()) {
+    if (evaluation.rows.empty()) return fail("there are no queries to draw a chart of");
+    const std::string wrong =
+        charts::write_chart(evaluation_chart(evaluation.rows, names_of(options.paths)), options.chart);
+    if (!wrong.empty()) return fail(wrong);
+  }
   if (options.format == "json") return print(json(evaluation.rows));
   if (options.format == "csv") return print(csv(evaluation.rows));
   return print(table(evaluation.rows));
@@ -90,6 +115,11 @@ Subcommand add_evaluate(CLI::App& app) {
   add_kind(*command, options->kind,
            "kind of CSV files whose path does not tell it; leaves out queries of the other kind");
   add_format(*command, options->format, {"table", "json", "csv"});
+  command
+      ->add_option("--chart", options->chart,
+                   "also draw a chart, time against false positives: a .svg, .png or .html file. Without --truth, what "
+                   "the files do not tell is decided exactly")
+      ->type_name("FILE");
   command->add_option("PATH", options->paths, "CSV and HDF5 query files, or directories of them")
       ->required()
       ->type_name("");

@@ -81,7 +81,9 @@ class Evaluator {
 
   void append_truths(const QueryBlock& block, KindEvaluation& evaluation) {
     std::vector<unsigned char>& truths = evaluation.pending.truths;
-    if (request_.truth != TruthSource::exact) {
+    const bool decide =
+        request_.truth == TruthSource::exact || (request_.truth == TruthSource::file_or_exact && !block.has_truth());
+    if (!decide) {
       evaluation.truth_known = evaluation.truth_known && block.has_truth();
       truths.insert(truths.end(), block.truths.begin(), block.truths.end());
       return;

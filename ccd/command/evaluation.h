@@ -14,9 +14,10 @@
 namespace tightrope::ccd {
 
 enum class TruthSource {
-  file_if_told,  ///< the files' truth; unknown for a kind if one of its files tells none
-  file,          ///< the files' truth, which they must tell
-  exact,         ///< the exact oracle's
+  file_if_told,   ///< the files' truth; unknown for a kind if one of its files tells none
+  file,           ///< the files' truth, which they must tell
+  exact,          ///< the exact oracle's
+  file_or_exact,  ///< the files' truth, the exact oracle's where they tell none
 };
 
 /// The type that a method computes in.

@@ -30,12 +30,13 @@ RULES = {
     "runtime/": [RUNTIME],
     "dsl/": [r"dsl/.*", r"fmt/.*"],
     "codegen/": [r"codegen/.*", r"dsl/.*", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", r"(?:clang|llvm)/.*", RUNTIME, POSIX],
+    "codegen/charts/": [r"codegen/charts/.*", r"fmt/.*", POSIX],
     "ccd/": [r"ccd/(?:methods/|impact/)?[\w.]+", API, r"Eigen/.*", RUNTIME, GENERATED],
     "ccd/oracle/": [r"ccd/oracle/.*", r"ccd/tightrope/ccd\.h", r"gmp(?:xx)?\.h"],
     "ccd/query_io/": [r"ccd/query_io/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"hdf5\.h", POSIX],
     "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],
-    "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io)/.*", API, r"ccd/query\.h", r"fmt/.*", r"CLI/.*",
-                     r"nlohmann/.*", POSIX],
+    "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io)/.*", API, r"ccd/query\.h", r"codegen/charts/.*",
+                     r"fmt/.*", r"CLI/.*", r"nlohmann/.*", POSIX],
 }
 INCLUDE_ROOTS = ["", "ccd", "runtime"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -53,7 +53,7 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
       {{"evaluate"}, "PATH is required"},
       {{"evaluate", "--colour", "x"},
        "The following argument was not expected: --colour; accepted by evaluate: --help, "
-       "--method, --truth, --real, --kind, --format, PATH"},
+       "--method, --truth, --real, --kind, --format, --chart, PATH"},
       {{"evaluate", "--method", "tigth", "x"}, "unknown method 'tigth'; accepted: all, " + methods},
       {{"evaluate", "--method", "tight,", "x"}, "unknown method ''; accepted: all, " + methods},
       {{"evaluate", "--format", "xml", "x"}, "--format: xml not in {table,json,csv}"},
@@ -83,7 +83,7 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
 
 TEST(Command, WhatIsNotOfferedYetIsRejected) {
   const ScratchDirectory scratch;
-  for (const std::string option : {"--threads", "--device", "--chart"}) {
+  for (const std::string option : {"--threads", "--device"}) {
     const Outcome outcome = run_command(scratch, {"evaluate", option, "1", "x"});
     EXPECT_EQ(outcome.status, 2) << option;
     EXPECT_NE(outcome.err.find(option), std::string::npos) << outcome.err;
