@@ -21,6 +21,7 @@ Subcommand add_evaluate(CLI::App& app);
 Subcommand add_classify(CLI::App& app);
 Subcommand add_generate(CLI::App& app);
 Subcommand add_exact(CLI::App& app);
+Subcommand add_stability(CLI::App& app);
 
 /// "tightrope-ccd: error: ..." on stderr; gives bad_usage back.
 int fail(std::string_view message);

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 TEST(Command, HelpAndVersionAreAnswersNotErrors) {
   const ScratchDirectory scratch;
-  for (const std::string command : {"methods", "evaluate", "classify", "generate", "exact"}) {
+  for (const std::string command : {"methods", "evaluate", "classify", "generate", "exact", "stability"}) {
     const Outcome help = run_command(scratch, {command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_EQ(help.err, "") << command;
@@ -42,7 +42,7 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
     std::vector<std::string> arguments;
     std::string message;
   };
-  const std::string commands = "commands: methods, evaluate, classify, generate, exact";
+  const std::string commands = "commands: methods, evaluate, classify, generate, exact, stability";
   std::string methods;
   for (const MethodInfo& info : ccd::methods()) {
     methods += methods.empty() ? std::string(info.name) : ", " + std::string(info.name);
