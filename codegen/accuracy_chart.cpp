@@ -258,13 +258,22 @@ std::vector<charts::LegendEntry> legend_of(const Chart& chart) {
   return legend;
 }
 
-std::string caption_of(const Chart& chart, bool all) {
-  std::string text =
-      "How far the bounds are from the errors that they bound. Inputs are uniform in a part of their declared ranges; "
-      "bounds and errors are medians over them, the errors by exact arithmetic. static is one "
-      "constant for the whole range, safe depends on the largest inputs of a run, tight on every value. ";
-  for (const charts::LegendEntry& entry : chart.legend) {
-    if (entry.text == "Gappa") text += "Gappa: what it finds by itself for the whole range. ";
+std::string caption_of(const Chart& chart, const AccuracyRequest& request, bool all) {
+  std::string text = "How far the bounds are from the errors that they bound. Inputs are uniform in a part of their ";
+  text += request.ranges_assumed ? fmt::format("ranges (where none is declared, {:g} at most); ", request.assumed_range)
+                                 : "declared ranges; ";
+  text += "bounds and errors are medians over them, the errors by exact arithmetic. ";
+  const std::pair<const char*, const char*> sentences[] = {
+      {"safe", "safe depends on the largest inputs of a run. "},
+      {"tight", "tight depends on every value. "},
+      {"interval", "interval, too. "},
+      {"static", "static is one constant for the whole ranges. "},
+      {"Gappa", "Gappa: what it finds by itself for the whole ranges. "},
+  };
+  for (const auto& [series, sentence] : sentences) {
+    const bool there =
+        std::any_of(chart.legend.begin(), chart.legend.end(), [&](const auto& entry) { return entry.text == series; });
+    if (there) text += sentence;
   }
   if (!all) text += "Of each predicate the output with the greatest bound. ";
   return text;
@@ -295,8 +304,8 @@ Chart accuracy_chart(const dsl::Program& program, const AccuracyRequest& request
   chart.subtitle =
       request.precisions.size() == 1 ? fmt::format("Computed in {}.", name(request.precisions.front())) : "";
   chart.legend = legend_of(chart);
-  chart.caption = caption_of(chart, all);
-  chart.x = {.title = "largest input, as a part of its declared range"};
+  chart.caption = caption_of(chart, request, all);
+  chart.x = {.title = "largest input, as a part of its range"};
   chart.y = {.title = "bound, error", .shared = false};
   return chart;
 }

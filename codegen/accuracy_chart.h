@@ -15,6 +15,8 @@ struct AccuracyRequest {
   std::string gappa;             ///< the program that finds bounds of its own; empty: they are left out
   double gappa_time_limit = 60;  ///< seconds an output element
   std::string source;            ///< the program's name, for readers
+  double assumed_range = 1;      ///< that inputs were given which declare none, for readers
+  bool ranges_assumed = false;   ///< whether there are such inputs
 };
 
 /// One panel an output or, where there are more than eight, the worst output of each predicate. Inputs are uniform in

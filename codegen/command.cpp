@@ -187,7 +187,13 @@ int write_accuracy_chart(const Arguments& arguments, CompileRequest request, dsl
   AccuracyRequest accuracy;
   if (!arguments.bound_given) request.modes = accuracy.modes;
   request.only_applicable_modes = !arguments.bound_given || arguments.bound == "all";
-  for (dsl::Predicate& p : program.predicates) p = with_assumed_ranges(p, arguments.report_range.value_or(1));
+  accuracy.assumed_range = arguments.report_range.value_or(1);
+  for (dsl::Predicate& p : program.predicates) {
+    for (const dsl::Parameter& parameter : p.parameters) {
+      accuracy.ranges_assumed = accuracy.ranges_assumed || !parameter.range;
+    }
+    p = with_assumed_ranges(p, accuracy.assumed_range);
+  }
   accuracy.modes = modes_of(request, program);
   std::erase_if(accuracy.modes, [](BoundMode mode) {
     return mode == BoundMode::none || mode == BoundMode::exact || mode == BoundMode::staged;
