@@ -1,6 +1,7 @@
 #include "ccd/impact/exact_polynomials.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -8,7 +9,6 @@
 #include <utility>
 
 #include "edge_edge.exact.double.h"
-#include "exact_classification.exact.double.h"
 #include "exact_roots.exact.double.h"
 #include "vertex_face.exact.double.h"
 
@@ -26,17 +26,16 @@ std::array<Dyadic, N> values(std::optional<Dyadic> (&outputs)[N]) {
   return result;
 }
 
-/// Adds a vector-valued quadratic of a generated predicate, [coefficient][axis].
-void add(PerAxis<Quadratic>& moments, std::optional<Dyadic> (&m)[3][3]) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    moments.of[axis][moments.count] = polynomial<3>({*m[0][axis], *m[1][axis], *m[2][axis]});
-  }
-  ++moments.count;
-}
-
-MovingPoint<double> point(Pair pair, const double* points, int index) {
-  static constexpr std::array<int, 4> count{2, 3, 4, 4};
-  return {points + 3 * index, points + 3 * (index + count[static_cast<std::size_t>(pair)])};
+/// Times which power of two exact numbers are shortest: the largest coordinate in [2^60, 2^61) times a power of 2^64.
+/// Then differences of coordinates are a multiple of 2^64 times a number below 2^62, one word for numbers that are not
+/// much smaller, and products of n of them n words. Nothing is lost by scaling up; numbers near overflow stay as they
+/// are.
+double shortening(std::span<const double> points) {
+  double largest = 0;
+  for (const double x : points) largest = std::max(largest, magnitude(x));
+  const int exponent = std::max(static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52), 1) - 1023;
+  const int factor = (60 - exponent) & 63;
+  return exponent + factor > 1000 ? 1 : std::bit_cast<double>(static_cast<std::uint64_t>(factor + 1023) << 52);
 }
 
 /// The pairs of points of different features.
@@ -78,18 +77,25 @@ template Quadratic polynomial(std::array<Dyadic, 3>);
 template Cubic polynomial(std::array<Dyadic, 4>);
 
 Cubic elevated(const Quadratic& j) {
-  auto cubic = generated::elevated_quadratic<bound::exact, double>::evaluate_values(j.exact.data());
+  auto cubic = generated::quadratic_elevated<bound::exact, double>::evaluate_values(j.exact.data());
   return polynomial(values(cubic.k));
 }
 Cubic elevated(const Line& l) {
-  auto quadratic = generated::elevated_line<bound::exact, double>::evaluate_values(l.exact.data());
+  auto quadratic = generated::line_elevated<bound::exact, double>::evaluate_values(l.exact.data());
   return elevated(polynomial(values(quadratic.j)));
 }
 
-Cubic coplanarity(Kind kind, const double* points) {
-  const auto a = moving_point(points, 0), b = moving_point(points, 1);
-  const auto c = moving_point(points, 2), d = moving_point(points, 3);
-  if (kind == Kind::vertex_face) {
+Features::Features(Pair pair, const double* points)
+    : pair_(pair), count_(std::array{2U, 3U, 4U, 4U}[static_cast<std::size_t>(pair)]) {
+  const std::span given(points, 6 * count_);
+  const double factor = shortening(given);
+  std::transform(given.begin(), given.end(), points_.begin(), [&](double x) { return x * factor; });
+}
+
+Cubic Features::coplanarity() const {
+  const auto a = moving_point(points_.data(), 0), b = moving_point(points_.data(), 1);
+  const auto c = moving_point(points_.data(), 2), d = moving_point(points_.data(), 3);
+  if (pair_ == Pair::vertex_face) {
     using predicate = generated::vertex_face<bound::exact, double>;
     auto y = predicate::coplanarity_values(a.t0, a.t1, b.t0, b.t1, c.t0, c.t1, d.t0, d.t1);
     return polynomial(values(y.k));
@@ -99,49 +105,45 @@ Cubic coplanarity(Kind kind, const double* points) {
   return polynomial(values(y.k));
 }
 
-PerAxis<Quadratic> moments(Pair pair, const double* points) {
-  PerAxis<Quadratic> result;
-  const auto p = [&](int index) { return point(pair, points, index); };
-  switch (pair) {
+Functions<Quadratic> Features::moments(std::size_t axis) const {
+  std::array<std::array<double, 2>, 8> projected;
+  for (std::size_t i = 0; i < 2 * count_; ++i) {
+    projected[i] = {coordinate(i, (axis + 1) % 3), coordinate(i, (axis + 2) % 3)};
+  }
+  const auto at_0 = [&](std::size_t i) { return projected[i].data(); };
+  const auto at_1 = [&](std::size_t i) { return projected[i + count_].data(); };
+  switch (pair_) {
     case Pair::vertex_vertex:
-      break;
+      return {};
     case Pair::vertex_edge: {
       using predicate = generated::edge_moment<bound::exact, double>;
-      auto inside = predicate::evaluate_values(p(0).t0, p(0).t1, p(1).t0, p(1).t1, p(2).t0, p(2).t1);
-      add(result, inside.m);
-      break;
+      auto moment = predicate::evaluate_values(at_0(0), at_1(0), at_0(1), at_1(1), at_0(2), at_1(2));
+      return {1, {polynomial(values(moment.m))}};
     }
     case Pair::vertex_face: {
-      using predicate = generated::vertex_face<bound::exact, double>;
-      auto inside = predicate::inside_values(p(0).t0, p(0).t1, p(1).t0, p(1).t1, p(2).t0, p(2).t1, p(3).t0, p(3).t1);
-      add(result, inside.m_ab);
-      add(result, inside.m_bc);
-      add(result, inside.m_ca);
-      break;
+      using predicate = generated::face_moments<bound::exact, double>;
+      auto face = predicate::evaluate_values(at_0(0), at_1(0), at_0(1), at_1(1), at_0(2), at_1(2), at_0(3), at_1(3));
+      return {3, {polynomial(values(face.m[0])), polynomial(values(face.m[1])), polynomial(values(face.m[2]))}};
     }
     case Pair::edge_edge: {
-      using predicate = generated::edge_edge<bound::exact, double>;
-      auto inside = predicate::inside_values(p(0).t0, p(0).t1, p(1).t0, p(1).t1, p(2).t0, p(2).t1, p(3).t0, p(3).t1,
-                                             p(2).t0, p(2).t1, p(0).t0, p(0).t1);
-      add(result, inside.m_b);
-      add(result, inside.m_a);
-      add(result, inside.m_d);
-      add(result, inside.m_c);
-      break;
+      using predicate = generated::edge_moments<bound::exact, double>;
+      auto edges = predicate::evaluate_values(at_0(0), at_1(0), at_0(1), at_1(1), at_0(2), at_1(2), at_0(3), at_1(3));
+      return {4,
+              {polynomial(values(edges.m[0])), polynomial(values(edges.m[1])), polynomial(values(edges.m[2])),
+               polynomial(values(edges.m[3]))}};
     }
   }
-  return result;
+  return {};
 }
 
-PerAxis<Line> offsets(Pair pair, const double* points) {
-  PerAxis<Line> result;
-  for (const auto& [i, j] : pairs_of_points(pair)) {
-    const auto x = point(pair, points, i), y = point(pair, points, j);
-    const auto line = generated::offset<bound::exact, double>::evaluate_values(x.t0, x.t1, y.t0, y.t1);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      result.of[axis][result.count] = polynomial<2>({*line.path[0][axis], *line.path[1][axis]});
-    }
-    ++result.count;
+Functions<Line> Features::offsets(std::size_t axis) const {
+  Functions<Line> result;
+  for (const auto& pair : pairs_of_points(pair_)) {
+    const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
+    using predicate = generated::offset_in_axis<bound::exact, double>;
+    auto offset = predicate::evaluate_values(coordinate(i, axis), coordinate(i + count_, axis), coordinate(j, axis),
+                                             coordinate(j + count_, axis));
+    result.of[result.count++] = polynomial(values(offset.path));
   }
   return result;
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 
-#include "tightrope/ccd.h"
 #include "tightrope/exact.h"
 #include "tightrope/impact.h"
 #include "tightrope/sign.h"
@@ -34,22 +33,35 @@ bool is_zero(const Polynomial<N>& p) {
 Cubic elevated(const Quadratic& j);
 Cubic elevated(const Line& l);
 
-/// Functions [axis][0 .. count).
+/// Functions of one axis: the first `count` of them.
 template <class Function>
-struct PerAxis {
+struct Functions {
   std::size_t count = 0;
-  std::array<std::array<Function, 4>, 3> of;
+  std::array<Function, 4> of;
 };
 
-/// Y, zero where the four points of a vertex-face or edge-edge pair are coplanar.
-Cubic coplanarity(Kind kind, const double* points);
+/// The moving features of a pair. Axes: 0, 1, 2.
+class Features {
+ public:
+  /// `points`: those of the pair (impact.h); finite.
+  Features(Pair pair, const double* points);
+  Pair pair() const { return pair_; }
 
-/// The projected quadratics z of theorem 1.4: at a contact no two of one axis have opposite signs. Of a vertex and an
-/// edge: the one moment of the edge about the vertex, zero at a contact.
-PerAxis<Quadratic> moments(Pair pair, const double* points);
+  /// Y, zero where four points are coplanar: of vertex-face and edge-edge pairs.
+  Cubic coplanarity() const;
+  /// The projected quadratics z of theorem 1.4: at a contact no two of one axis have opposite signs. Of a vertex and an
+  /// edge: the moment of the edge about the vertex, zero at a contact. Of two vertices none.
+  Functions<Quadratic> moments(std::size_t axis) const;
+  /// The paths of points of the second feature relative to points of the first, every such pair: where all are positive
+  /// or all negative, this axis separates the features.
+  Functions<Line> offsets(std::size_t axis) const;
 
-/// The paths of points of the second feature relative to points of the first, every such pair: where all are positive
-/// or all negative in one axis, this axis separates the features.
-PerAxis<Line> offsets(Pair pair, const double* points);
+ private:
+  double coordinate(std::size_t point, std::size_t axis) const { return points_[3 * point + axis]; }
+
+  Pair pair_;
+  std::size_t count_;  ///< points at one end of the step
+  std::array<double, 24> points_{};
+};
 
 }  // namespace tightrope::ccd::exact

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 #include "ccd/impact/root_estimate.h"
 #include "classification.exact.double.h"
@@ -83,6 +84,11 @@ Division division(const Cubic& k, const Quadratic& j) {
   return {polynomial<2>({*cofactor.m[0], *cofactor.m[1]}), polynomial<2>({*remainder.n[0], *remainder.n[1]})};
 }
 
+bool is_linear(const Quadratic& j) {
+  const auto shape = generated::bend_of_quadratic<bound::exact, double>::evaluate_values(j.exact.data());
+  return sign_of(shape.bend) == DefiniteSign::zero;
+}
+
 DefiniteSign sign_at(const Quadratic& j, const Ratio& r) {
   return sign_of(generated::quadratic_at<bound::exact, double>::evaluate_values(j.exact.data(), r.s, r.t).height);
 }
@@ -98,7 +104,7 @@ DefiniteSign sign_at(const std::array<Dyadic, 2>& l, const Ratio& r) {
 /// its roots are real (inner_roots), and the sign changes of its coefficients on [0, other] are their number
 /// (MATH 3.6).
 DefiniteSign Root::order(const Ratio& other, const Bounded<double>& s, const Bounded<double>& t) const {
-  if (ratio_) return sign_at(std::array<Dyadic, 2>{-other.t, other.s}, *ratio_);
+  if (is_ratio()) return sign_at(std::array<Dyadic, 2>{-other.t, other.s}, ratio_);
   const auto near = near_part_signs(*cubic_, s, t, count_ == 1 ? 1 : 3);
   const PartSigns part = near ? *near : exact_part_signs(*cubic_, other);
   if (count_ == 1) return part[2] * before_;
@@ -115,6 +121,7 @@ DefiniteSign Root::order(double x) {
   const DefiniteSign result = order(other, complement(x), {x, 0});
   if (result == DefiniteSign::zero) {
     ratio_ = other;
+    cubic_ = nullptr;
     lower_ = upper_ = x;
   }
   return result;
@@ -139,8 +146,8 @@ Root Root::crossing(const Cubic& cubic, double lower, double upper) {
 }
 
 double Root::estimate() const {
-  if (ratio_) {
-    const Line l = polynomial<2>({ratio_->s, ratio_->t});
+  if (is_ratio()) {
+    const Line l = polynomial<2>({ratio_.s, ratio_.t});
     return l.near[1].value / (l.near[0].value + l.near[1].value);
   }
   std::array<double, 4> k;
@@ -151,7 +158,7 @@ double Root::estimate() const {
 
 std::uint64_t Root::first_step(double estimate) const {
   constexpr std::uint64_t least = 4;
-  if (ratio_) return least;
+  if (is_ratio()) return least;
   const auto until =
       generated::cubic_until<bound::tight, double>::evaluate(cubic_->near.data(), complement(estimate), {estimate, 0});
   const double rise = magnitude(until.part[1].value - until.part[2].value);  // slope * estimate / 3
@@ -197,7 +204,7 @@ void Root::narrow_to_neighbours() {
 DefiniteSign Root::sign(const Line& l) const {
   const DefiniteSign a = sign_of(l.exact[0]), b = sign_of(l.exact[1]);
   if (a == b) return a;
-  if (ratio_) return sign_at(l.exact, *ratio_);
+  if (is_ratio()) return sign_at(l.exact, ratio_);
   const auto ends = generated::line_between<bound::tight, double>::evaluate(l.near.data(), lower_, upper_);
   if (const DefiniteSign s = common_sign(ends.part); s != DefiniteSign::zero) return s;
   const auto [before, after] = sides(a, b);
@@ -216,18 +223,24 @@ DefiniteSign Root::sign(const Line& l) const {
 DefiniteSign Root::sign(const Quadratic& j) const {
   const auto signs = signs_of(j.exact);
   if (all_equal(signs)) return signs[0];
-  if (ratio_) return sign_at(j, *ratio_);
+  if (is_ratio()) return sign_at(j, ratio_);
   const auto hull = generated::quadratic_between<bound::tight, double>::evaluate(j.near.data(), lower_, upper_);
   if (const DefiniteSign s = common_sign(hull.part); s != DefiniteSign::zero) return s;
   return sign_by_division(j);
 }
 
-/// square * Y = j m + n with linear m and n (MATH 2.5): at the root j m = -n. If j is linear square is 0, and so are m
-/// and n: j is a linear function. If m vanishes there, this time is the zero of m, or, if m is zero everywhere (Y is
-/// linear then: Y = n / square), that of n; j is evaluated there.
+/// square * Y = j m + n with linear m and n, square > 0 for a j that is not linear (MATH 2.5): at the root j m = -n. If
+/// m vanishes there, this time is the zero of m or, if m is zero everywhere (Y is linear then: Y = n / square), that of
+/// n; j is evaluated there.
+///
+/// Where j vanishes n does, so that this time is the zero of n if n is not zero everywhere. Conversely, if j vanishes
+/// at the zero of n so does Y, and if that is in (0, 1), where Y has but one root, it is this time. j has a lower
+/// degree than Y: asked first.
 DefiniteSign Root::sign_by_division(const Quadratic& j) const {
+  if (is_linear(j)) return sign(polynomial<2>({j.exact[0], j.exact[2]}));
   const auto [m, n] = division(*cubic_, j);
-  if (is_zero(m) && is_zero(n)) return sign(polynomial<2>({j.exact[0], j.exact[2]}));
+  const bool crosses = opposite(sign_of(n.exact[0]), sign_of(n.exact[1]));
+  if (count_ == 1 && crosses && sign_at(j, zero_of(n.exact)) == DefiniteSign::zero) return DefiniteSign::zero;
   if (const DefiniteSign on_m = sign(m); on_m != DefiniteSign::zero) return -(on_m * sign(n));
   return sign_at(j, zero_of(is_zero(m) ? n.exact : m.exact));
 }

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -56,8 +55,10 @@ class Root {
   DefiniteSign order(double x);
   DefiniteSign sign_by_division(const Quadratic& j) const;
 
-  std::optional<Ratio> ratio_;
-  const Cubic* cubic_ = nullptr;
+  bool is_ratio() const { return cubic_ == nullptr; }
+
+  Ratio ratio_;
+  const Cubic* cubic_ = nullptr;  ///< none: this is the ratio
   int index_ = 0, count_ = 0;
   DefiniteSign before_ = DefiniteSign::zero;  ///< of the cubic before the first of these roots
   double lower_ = 0, upper_ = 1;

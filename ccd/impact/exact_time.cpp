@@ -1,6 +1,9 @@
 #include "ccd/impact/exact_time.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
 
 #include "ccd/impact/exact_polynomials.h"
 #include "ccd/impact/exact_root.h"
@@ -11,49 +14,25 @@ namespace {
 using exact::Cubic;
 using exact::DefiniteSign;
 using exact::elevated;
+using exact::Functions;
 using exact::inner_roots;
 using exact::Line;
-using exact::PerAxis;
 using exact::Quadratic;
 using exact::Root;
 using exact::Verdict;
 
-/// The first of an axis's functions that is not zero all the time.
-template <class Function>
-const Function* first_not_zero(const PerAxis<Function>& functions) {
-  for (const auto& axis : functions.of) {
-    for (std::size_t i = 0; i < functions.count; ++i) {
-      if (!is_zero(axis[i])) return &axis[i];
-    }
-  }
-  return nullptr;
-}
-
-/// The functions of the first axis in which not all are zero all the time, as cubics; those that are not.
-template <class Function>
-std::vector<Cubic> cubics_of_one_axis(const PerAxis<Function>& functions) {
-  std::vector<Cubic> cubics;
-  for (const auto& axis : functions.of) {
-    for (std::size_t i = 0; i < functions.count; ++i) {
-      if (!is_zero(axis[i])) cubics.push_back(elevated(axis[i]));
-    }
-    if (!cubics.empty()) break;
-  }
-  return cubics;
-}
-
 /// The contact criterion of a pair at one time.
 class Touching {
  public:
-  Touching(Pair pair, const double* points) : pair_(pair), points_(points) {}
+  Touching(Pair pair, const double* points) : features_(pair, points) {}
 
-  const PerAxis<Quadratic>& moments() {
-    if (!moments_) moments_ = exact::moments(pair_, points_);
-    return *moments_;
+  const Functions<Quadratic>& moments(std::size_t axis) {
+    if (!moments_[axis]) moments_[axis] = features_.moments(axis);
+    return *moments_[axis];
   }
-  const PerAxis<Line>& offsets() {
-    if (!offsets_) offsets_ = exact::offsets(pair_, points_);
-    return *offsets_;
+  const Functions<Line>& offsets(std::size_t axis) {
+    if (!offsets_[axis]) offsets_[axis] = features_.offsets(axis);
+    return *offsets_[axis];
   }
 
   /// A cubic that is zero whenever there is contact.
@@ -66,24 +45,41 @@ class Touching {
   Verdict verdict_of_moments(std::size_t axis, const Root& time);
   bool separated(std::size_t axis, const Root& time);
 
-  Pair pair_;
-  const double* points_;
-  std::optional<PerAxis<Quadratic>> moments_;
-  std::optional<PerAxis<Line>> offsets_;
+  exact::Features features_;
+  std::array<std::optional<Functions<Quadratic>>, 3> moments_;
+  std::array<std::optional<Functions<Line>>, 3> offsets_;
 };
 
+constexpr std::array<std::size_t, 3> axes{0, 1, 2};
+
+/// Those functions of the first axis in which not all are zero all the time that are not, as cubics.
+/// `of_axis`: gives the functions of an axis.
+template <class OfAxis>
+std::vector<Cubic> cubics_of_one_axis(const OfAxis& of_axis) {
+  std::vector<Cubic> cubics;
+  for (const std::size_t axis : axes) {
+    const auto& functions = of_axis(axis);
+    for (std::size_t i = 0; i < functions.count; ++i) {
+      if (!is_zero(functions.of[i])) cubics.push_back(elevated(functions.of[i]));
+    }
+    if (!cubics.empty()) break;
+  }
+  return cubics;
+}
+
 Cubic Touching::necessary() {
-  switch (pair_) {
+  const auto first = [](const auto& of_axis) {
+    const auto cubics = cubics_of_one_axis(of_axis);
+    return cubics.empty() ? Cubic{} : cubics.front();
+  };
+  switch (features_.pair()) {
     case Pair::vertex_vertex:
-      if (const Line* offset = first_not_zero(offsets())) return elevated(*offset);
-      return {};
+      return first([&](std::size_t axis) -> const auto& { return offsets(axis); });
     case Pair::vertex_edge:
-      if (const Quadratic* moment = first_not_zero(moments())) return elevated(*moment);
-      return {};
+      return first([&](std::size_t axis) -> const auto& { return moments(axis); });
     case Pair::vertex_face:
-      return exact::coplanarity(Kind::vertex_face, points_);
     case Pair::edge_edge:
-      return exact::coplanarity(Kind::edge_edge, points_);
+      return features_.coplanarity();
   }
   return {};
 }
@@ -98,29 +94,31 @@ Cubic Touching::necessary() {
 /// included. Two vertices: contact if and only if their offset is zero in all coordinates, that is if no axis
 /// separates.
 bool Touching::at(const Root& time) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (const std::size_t axis : axes) {
     const Verdict verdict = verdict_of_moments(axis, time);
     if (verdict == Verdict::no_contact) return false;
     if (verdict == Verdict::contact) return true;
   }
-  return !separated(0, time) && !separated(1, time) && !separated(2, time);
+  return std::none_of(axes.begin(), axes.end(), [&](std::size_t axis) { return separated(axis, time); });
 }
 
 Verdict Touching::verdict_of_moments(std::size_t axis, const Root& time) {
   std::array<DefiniteSign, 4> signs{};
-  for (std::size_t i = 0; i < moments().count; ++i) {
-    signs[i] = time.sign(moments().of[axis][i]);
+  const Functions<Quadratic>& z = moments(axis);
+  for (std::size_t i = 0; i < z.count; ++i) {
+    signs[i] = time.sign(z.of[i]);
     if (verdict(signs) == Verdict::no_contact) return Verdict::no_contact;
   }
   const Verdict result = verdict(signs);
-  return pair_ == Pair::vertex_edge && result == Verdict::contact ? Verdict::no_contact : result;
+  return features_.pair() == Pair::vertex_edge && result == Verdict::contact ? Verdict::no_contact : result;
 }
 
 bool Touching::separated(std::size_t axis, const Root& time) {
-  const DefiniteSign first = time.sign(offsets().of[axis][0]);
+  const Functions<Line>& paths = offsets(axis);
+  const DefiniteSign first = time.sign(paths.of[0]);
   if (first == DefiniteSign::zero) return false;
-  for (std::size_t i = 1; i < offsets().count; ++i) {
-    if (time.sign(offsets().of[axis][i]) != first) return false;
+  for (std::size_t i = 1; i < paths.count; ++i) {
+    if (time.sign(paths.of[i]) != first) return false;
   }
   return true;
 }
@@ -156,8 +154,11 @@ std::optional<TimeBracket> first_at_roots(Touching& touching, const Cubic& y, do
 /// Of all candidates with contact the smallest lower and the smallest upper ends enclose the first: it is one of them.
 std::optional<TimeBracket> first_of_any(Touching& touching, double tolerance, double t_max) {
   if (touching.at(Root::at_0())) return TimeBracket{0, 0};
-  std::vector<Cubic> cubics = cubics_of_one_axis(touching.moments());
-  if (cubics.empty()) cubics = cubics_of_one_axis(touching.offsets());
+  std::vector<Cubic> cubics =
+      cubics_of_one_axis([&](std::size_t axis) -> const auto& { return touching.moments(axis); });
+  if (cubics.empty()) {
+    cubics = cubics_of_one_axis([&](std::size_t axis) -> const auto& { return touching.offsets(axis); });
+  }
   std::vector<Root> candidates;
   bool end = false;
   for (const Cubic& cubic : cubics) {
@@ -191,7 +192,8 @@ std::optional<TimeBracket> exact_first_contact(Pair pair, const double* points, 
 
 TimeBracket sharpened(Kind kind, const double* points, TimeBracket bracket, double tolerance) {
   if (bracket.upper - bracket.lower <= tolerance && bracket.lower > 0) return bracket;
-  const Cubic y = exact::coplanarity(kind, points);
+  const Pair pair = kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge;
+  const Cubic y = exact::Features(pair, points).coplanarity();
   Root time = Root::crossing(y, bracket.lower, bracket.upper);
   time.narrow();
   return located(time, tolerance, bracket.upper);

@@ -4,12 +4,14 @@
 
 #include <tightrope/limbs.h>
 
+#include <algorithm>
 #include <bit>
 #include <compare>
 #include <concepts>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace tightrope {
@@ -65,6 +67,11 @@ class Dyadic {
     const std::int64_t i = index - offset_;
     return i >= 0 && i < static_cast<std::int64_t>(limbs_.size()) ? limbs_[static_cast<std::size_t>(i)] : 0;
   }
+  Dyadic(detail::Limbs limbs, std::int64_t offset) : limbs_(std::move(limbs)), offset_(offset) {}
+  /// From the lowest limb of a to that of b, which is not below it.
+  static std::size_t distance(const Dyadic& a, const Dyadic& b) {
+    return static_cast<std::size_t>(b.offset_ - a.offset_);
+  }
   std::int64_t end() const { return offset_ + static_cast<std::int64_t>(limbs_.size()); }
   void normalise();
   static std::strong_ordering compare_magnitudes(const Dyadic& a, const Dyadic& b);
@@ -87,7 +94,7 @@ inline Dyadic::Dyadic(double value) {
   if (biased != 0) significand |= std::uint64_t{1} << 52;
   if (significand == 0) return;
   const int exponent = (biased == 0 ? 1 : biased) - 1075;  // value = +-significand * 2^exponent
-  const int shift = ((exponent % 64) + 64) % 64;
+  const int shift = exponent & 63;
   offset_ = (exponent - shift) / 64;
   const detail::Wide shifted = static_cast<detail::Wide>(significand) << shift;
   limbs_ = detail::Limbs(2);
@@ -129,12 +136,12 @@ inline Dyadic Dyadic::operator-() && {
 inline std::strong_ordering Dyadic::compare_magnitudes(const Dyadic& a, const Dyadic& b) {
   if (a.limbs_.empty() || b.limbs_.empty()) return a.limbs_.size() <=> b.limbs_.size();
   if (a.end() != b.end()) return a.end() <=> b.end();
-  const std::int64_t low = std::min(a.offset_, b.offset_);
-  for (std::int64_t i = a.end() - 1; i >= low; --i) {
-    const std::uint64_t x = a.limb_at(i), y = b.limb_at(i);
-    if (x != y) return x <=> y;
+  const std::uint64_t *x = a.limbs_.data(), *y = b.limbs_.data();
+  std::size_t i = a.limbs_.size(), j = b.limbs_.size();
+  while (i > 0 && j > 0) {
+    if (x[--i] != y[--j]) return x[i] <=> y[j];
   }
-  return std::strong_ordering::equal;
+  return i <=> j;  // lowest limbs are not zero
 }
 
 inline std::strong_ordering operator<=>(const Dyadic& a, const Dyadic& b) {
@@ -142,75 +149,75 @@ inline std::strong_ordering operator<=>(const Dyadic& a, const Dyadic& b) {
   return a.negative_ ? Dyadic::compare_magnitudes(b, a) : Dyadic::compare_magnitudes(a, b);
 }
 
+/// |a| + |b|; a's lowest limb is not above b's.
 inline Dyadic Dyadic::add_magnitudes(const Dyadic& a, const Dyadic& b) {
-  Dyadic r;
-  r.offset_ = std::min(a.offset_, b.offset_);
-  const auto n = static_cast<std::size_t>(std::max(a.end(), b.end()) - r.offset_ + 1);  // one limb for the carry
-  r.limbs_ = detail::Limbs(n);
-  const auto a_at = static_cast<std::size_t>(a.offset_ - r.offset_);
-  std::copy_n(a.limbs_.data(), a.limbs_.size(), r.limbs_.data() + a_at);
-  detail::add_to(r.limbs_.data(), n, b.limbs_, static_cast<std::size_t>(b.offset_ - r.offset_));
+  const std::size_t na = a.limbs_.size(), nb = b.limbs_.size(), gap = distance(a, b);
+  Dyadic r(detail::Limbs(std::max(na, gap + nb) + 1), a.offset_);
+  detail::add(a.limbs_.data(), na, b.limbs_.data(), nb, gap, r.limbs_.data());
   return r;
 }
 
 inline Dyadic Dyadic::subtract_magnitudes(const Dyadic& larger, const Dyadic& smaller) {
-  Dyadic r;
-  r.offset_ = std::min(larger.offset_, smaller.offset_);
-  const auto n = static_cast<std::size_t>(larger.end() - r.offset_);
-  r.limbs_ = detail::Limbs(n);
-  const auto at = static_cast<std::size_t>(larger.offset_ - r.offset_);
-  std::copy_n(larger.limbs_.data(), larger.limbs_.size(), r.limbs_.data() + at);
-  detail::subtract_from(r.limbs_.data(), n, smaller.limbs_, static_cast<std::size_t>(smaller.offset_ - r.offset_));
+  const std::size_t nl = larger.limbs_.size(), ns = smaller.limbs_.size();
+  if (larger.offset_ <= smaller.offset_) {
+    Dyadic r{detail::Limbs(nl), larger.offset_};
+    detail::subtract(larger.limbs_.data(), nl, smaller.limbs_.data(), ns, distance(larger, smaller), r.limbs_.data());
+    return r;
+  }
+  const std::size_t gap = distance(smaller, larger);
+  Dyadic r{detail::Limbs(gap + nl), smaller.offset_};
+  detail::subtract_lower(larger.limbs_.data(), nl, gap, smaller.limbs_.data(), ns, r.limbs_.data());
   return r;
 }
 
 inline Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_negative) {
   if (b.limbs_.empty()) return a;
-  Dyadic r;
   if (a.limbs_.empty()) {
-    r = b;
+    Dyadic r = b;
     r.negative_ = b_negative;
     return r;
   }
   if (a.negative_ == b_negative) {
-    r = add_magnitudes(a, b);
+    Dyadic r = a.offset_ <= b.offset_ ? add_magnitudes(a, b) : add_magnitudes(b, a);
     r.negative_ = b_negative;
-  } else {
-    const std::strong_ordering order = compare_magnitudes(a, b);
-    if (order == 0) return r;
-    r = order > 0 ? subtract_magnitudes(a, b) : subtract_magnitudes(b, a);
-    r.negative_ = order > 0 ? a.negative_ : b_negative;
+    r.normalise();
+    return r;
   }
+  const std::strong_ordering order = compare_magnitudes(a, b);
+  if (order == 0) return {};
+  Dyadic r = order > 0 ? subtract_magnitudes(a, b) : subtract_magnitudes(b, a);
+  r.negative_ = order > 0 ? a.negative_ : b_negative;
   r.normalise();
   return r;
 }
 
 inline Dyadic operator*(const Dyadic& a, const Dyadic& b) {
-  Dyadic r;
-  if (a.limbs_.empty() || b.limbs_.empty()) return r;
-  r.limbs_ = detail::Limbs(a.limbs_.size() + b.limbs_.size());
-  detail::multiply(a.limbs_.data(), a.limbs_.size(), b.limbs_.data(), b.limbs_.size(), r.limbs_.data());
-  r.offset_ = a.offset_ + b.offset_;
+  const std::size_t na = a.limbs_.size(), nb = b.limbs_.size();
+  if (na == 0 || nb == 0) return {};
+  Dyadic r(detail::Limbs(na + nb), a.offset_ + b.offset_);
+  detail::multiply(a.limbs_.data(), na, b.limbs_.data(), nb, r.limbs_.data());
   r.negative_ = a.negative_ != b.negative_;
   r.normalise();
   return r;
 }
 
 inline Dyadic mul_pow2(const Dyadic& a, std::int64_t exponent) {
-  if (a.limbs_.empty()) return a;
-  const int shift = static_cast<int>(((exponent % 64) + 64) % 64);
+  const int shift = static_cast<int>(exponent & 63);
+  if (a.limbs_.empty() || shift == 0) {
+    Dyadic r = a;
+    if (!a.limbs_.empty()) r.offset_ += exponent / 64;
+    return r;
+  }
   const std::size_t n = a.limbs_.size();
-  Dyadic r;
-  r.limbs_ = detail::Limbs(n + 1);
+  Dyadic r(detail::Limbs(n + 1), a.offset_ + (exponent - shift) / 64);
+  const std::uint64_t* in = a.limbs_.data();
   std::uint64_t* out = r.limbs_.data();
   std::uint64_t carry = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const detail::Wide t = (static_cast<detail::Wide>(a.limbs_[i]) << shift) | carry;
-    out[i] = static_cast<std::uint64_t>(t);
-    carry = static_cast<std::uint64_t>(t >> 64);
+    out[i] = in[i] << shift | carry;
+    carry = in[i] >> (64 - shift);
   }
   out[n] = carry;
-  r.offset_ = a.offset_ + (exponent - shift) / 64;
   r.negative_ = a.negative_;
   r.normalise();
   return r;
@@ -222,6 +229,16 @@ inline std::uint64_t Dyadic::bits_from(std::int64_t position) const {
   const std::uint64_t low = limb_at(index) >> shift;
   return shift == 0 ? low : low | limb_at(index + 1) << (64 - shift);
 }
+
+namespace detail {
+/// 2^exponent, a normal number.
+template <std::floating_point Real>
+constexpr Real power_of_two(std::int64_t exponent) {
+  using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
+  using Limits = std::numeric_limits<Real>;
+  return std::bit_cast<Real>(static_cast<Bits>(exponent + Limits::max_exponent - 1) << (Limits::digits - 1));
+}
+}  // namespace detail
 
 template <std::floating_point Real>
 Real Dyadic::round(Direction direction) const {
@@ -243,14 +260,9 @@ Real Dyadic::round(Direction direction) const {
     const bool rest = low < ulp - 1;
     const bool increment = nearest ? half && (rest || (m & 1U) != 0) : away && low < ulp;
     m += increment ? 1U : 0U;
-    // m <= 2^digits and m * 2^ulp is a Real or overflows: no step of the scaling rounds.
-    magnitude = static_cast<Real>(m);
-    for (std::int64_t e = ulp; e != 0;) {
-      const std::int64_t step = std::clamp<std::int64_t>(e, -60, 60);
-      const Real factor = static_cast<Real>(std::uint64_t{1} << (step < 0 ? -step : step));
-      magnitude = step < 0 ? magnitude / factor : magnitude * factor;
-      e -= step;
-    }
+    // m <= 2^digits and m * 2^ulp is a Real or overflows: no step of the scaling rounds. Factors are normal numbers.
+    const std::int64_t first = std::max<std::int64_t>(ulp, Limits::min_exponent - 1);
+    magnitude = static_cast<Real>(m) * detail::power_of_two<Real>(first) * detail::power_of_two<Real>(ulp - first);
   }
   return negative_ ? -magnitude : magnitude;
 }
