@@ -54,8 +54,6 @@ std::span<const std::array<int, 2>> pairs_of_points(Pair pair) {
   return {};
 }
 
-}  // namespace
-
 /// The numbers are scaled by a power of 2^64 so that the largest is in [1, 2^64). Rounding to nearest errs by u |x| or,
 /// below the normal numbers, by half of the smallest.
 template <std::size_t N>
@@ -72,16 +70,15 @@ Polynomial<N> polynomial(std::array<Dyadic, N> exact) {
   }
   return p;
 }
-template Line polynomial(std::array<Dyadic, 2>);
-template Quadratic polynomial(std::array<Dyadic, 3>);
-template Cubic polynomial(std::array<Dyadic, 4>);
+
+}  // namespace
 
 Cubic elevated(const Quadratic& j) {
   auto cubic = generated::quadratic_elevated<bound::exact, double>::evaluate_values(j.exact.data());
   return polynomial(values(cubic.k));
 }
 Cubic elevated(const Line& l) {
-  auto quadratic = generated::line_elevated<bound::exact, double>::evaluate_values(l.exact.data());
+  auto quadratic = generated::line_elevated<bound::exact, double>::evaluate_values(l.data());
   return elevated(polynomial(values(quadratic.j)));
 }
 
@@ -143,7 +140,7 @@ Functions<Line> Features::offsets(std::size_t axis) const {
     using predicate = generated::offset_in_axis<bound::exact, double>;
     auto offset = predicate::evaluate_values(coordinate(i, axis), coordinate(i + count_, axis), coordinate(j, axis),
                                              coordinate(j + count_, axis));
-    result.of[result.count++] = polynomial(values(offset.path));
+    result.of[result.count++] = values(offset.path);
   }
   return result;
 }

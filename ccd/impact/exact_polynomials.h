@@ -11,23 +11,25 @@
 namespace tightrope::ccd::exact {
 
 /// Bernstein coefficients, up to a positive factor.
+using Line = std::array<Dyadic, 2>;
 template <std::size_t N>
 struct Polynomial {
   std::array<Dyadic, N> exact;
   std::array<Bounded<double>, N> near;  ///< `exact` times one power of two, within the bounds
 };
-using Line = Polynomial<2>;
 using Quadratic = Polynomial<3>;
 using Cubic = Polynomial<4>;
 
 template <std::size_t N>
-Polynomial<N> polynomial(std::array<Dyadic, N> exact);
-template <std::size_t N>
-bool is_zero(const Polynomial<N>& p) {
-  for (const Dyadic& x : p.exact) {
+bool is_zero(const std::array<Dyadic, N>& coefficients) {
+  for (const Dyadic& x : coefficients) {
     if (x.sign() != 0) return false;
   }
   return true;
+}
+template <std::size_t N>
+bool is_zero(const Polynomial<N>& p) {
+  return is_zero(p.exact);
 }
 
 Cubic elevated(const Quadratic& j);

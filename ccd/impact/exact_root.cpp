@@ -26,8 +26,8 @@ std::uint64_t farther(std::uint64_t distance) { return distance < std::uint64_t{
 /// 1 - t and its rounding error.
 Bounded<double> complement(double t) { return {1 - t, (1 - t) * 0x1p-53}; }
 
-/// Where a linear function whose ends have the signs a and b, not equal, is zero: in [0, 1] if they are not equal.
-Ratio zero_of(const std::array<Dyadic, 2>& f) { return {magnitude_of(f[1]), magnitude_of(f[0])}; }
+/// Where a linear function whose ends have opposite signs, or one of whose ends is zero, is zero.
+Ratio zero_of(const Line& f) { return {magnitude_of(f[1]), magnitude_of(f[0])}; }
 
 template <std::size_t N>
 std::array<DefiniteSign, N> signs_of(const std::array<Dyadic, N>& numbers) {
@@ -50,9 +50,6 @@ DefiniteSign common_sign(const Bounded<double> (&numbers)[N]) {
   }
   return static_cast<DefiniteSign>(first);
 }
-
-/// The signs of a cubic's coefficients on [0, t / (s + t)] but the first.
-using PartSigns = std::array<DefiniteSign, 3>;
 
 PartSigns exact_part_signs(const Cubic& k, const Ratio& r) {
   const auto until = generated::cubic_until<bound::exact, double>::evaluate_values(k.exact.data(), r.s, r.t);
@@ -81,7 +78,7 @@ Division division(const Cubic& k, const Quadratic& j) {
   using predicate = generated::quadratic_at_roots<bound::exact, double>;
   const auto cofactor = predicate::cofactor_values(k.exact.data(), j.exact.data());
   const auto remainder = predicate::remainder_values(k.exact.data(), j.exact.data());
-  return {polynomial<2>({*cofactor.m[0], *cofactor.m[1]}), polynomial<2>({*remainder.n[0], *remainder.n[1]})};
+  return {{*cofactor.m[0], *cofactor.m[1]}, {*remainder.n[0], *remainder.n[1]}};
 }
 
 bool is_linear(const Quadratic& j) {
@@ -92,33 +89,41 @@ bool is_linear(const Quadratic& j) {
 DefiniteSign sign_at(const Quadratic& j, const Ratio& r) {
   return sign_of(generated::quadratic_at<bound::exact, double>::evaluate_values(j.exact.data(), r.s, r.t).height);
 }
-DefiniteSign sign_at(const std::array<Dyadic, 2>& l, const Ratio& r) {
+DefiniteSign sign_at(const Line& l, const Ratio& r) {
   return sign_of(generated::line_at<bound::exact, double>::evaluate_values(l.data(), r.s, r.t).height);
 }
 
 }  // namespace
 
-/// The sign of (this - other), other in [0, 1]; s and t: other's, near.
-///
-/// The cubic's roots are counted in (0, other). If it has only one in (0, 1) its sign at `other` tells. Otherwise all
-/// its roots are real (inner_roots), and the sign changes of its coefficients on [0, other] are their number
-/// (MATH 3.6).
-DefiniteSign Root::order(const Ratio& other, const Bounded<double>& s, const Bounded<double>& t) const {
-  if (is_ratio()) return sign_at(std::array<Dyadic, 2>{-other.t, other.s}, ratio_);
-  const auto near = near_part_signs(*cubic_, s, t, count_ == 1 ? 1 : 3);
-  const PartSigns part = near ? *near : exact_part_signs(*cubic_, other);
+/// How many of the roots are less than the x whose part signs are given. If all roots of the cubic are real, which they
+/// are if several are in (0, 1) (inner_roots), it has as many in (0, x) as its coefficients over [0, x] change their
+/// sign (MATH 3.6).
+int Root::earlier_roots(const PartSigns& part) const {
+  return sign_changes<4>({sign_of(cubic_->exact[0]), part[0], part[1], part[2]});
+}
+
+/// The sign of (this - x), x in (0, 1); if this is the only root in an interval, in that.
+DefiniteSign Root::order(const PartSigns& part) const {
   if (count_ == 1) return part[2] * before_;
-  const int earlier = sign_changes<4>({sign_of(cubic_->exact[0]), part[0], part[1], part[2]});
+  const int earlier = earlier_roots(part);
   if (earlier > index_) return DefiniteSign::negative;
-  const bool equal = earlier == index_ && part[2] == DefiniteSign::zero;
-  return equal ? DefiniteSign::zero : DefiniteSign::positive;
+  return earlier == index_ ? part[2] * part[2] : DefiniteSign::positive;
+}
+
+DefiniteSign Root::order(const Ratio& other) const {
+  if (is_ratio()) return sign_at(Line{-other.t, other.s}, ratio_);
+  return order(exact_part_signs(*cubic_, other));
 }
 
 /// The sign of (this - x); if that is 0, this becomes the ratio.
 DefiniteSign Root::order(double x) {
+  if (!is_ratio()) {
+    const auto near = near_part_signs(*cubic_, complement(x), {x, 0}, count_ == 1 ? 1 : 3);
+    if (near) return order(*near);
+  }
   const Dyadic t(x);
   const Ratio other{Dyadic(1) - t, t};
-  const DefiniteSign result = order(other, complement(x), {x, 0});
+  const DefiniteSign result = order(other);
   if (result == DefiniteSign::zero) {
     ratio_ = other;
     cubic_ = nullptr;
@@ -147,8 +152,9 @@ Root Root::crossing(const Cubic& cubic, double lower, double upper) {
 
 double Root::estimate() const {
   if (is_ratio()) {
-    const Line l = polynomial<2>({ratio_.s, ratio_.t});
-    return l.near[1].value / (l.near[0].value + l.near[1].value);
+    const std::int64_t unit = -std::max(ratio_.s.high_exponent(), ratio_.t.high_exponent());
+    const double s = mul_pow2(ratio_.s, unit).to_double(), t = mul_pow2(ratio_.t, unit).to_double();
+    return t / (s + t);
   }
   std::array<double, 4> k;
   for (std::size_t i = 0; i < 4; ++i) k[i] = cubic_->near[i].value;
@@ -187,6 +193,21 @@ void Root::narrow() {
   }
   lower_ = number(low);
   upper_ = number(high);
+  isolate();
+}
+
+/// If there is no other root in the enclosure, the sign of the cubic tells everything from now on.
+void Root::isolate() {
+  if (is_ratio() || count_ == 1) return;
+  const auto earlier = [&](double x) {
+    const auto near = near_part_signs(*cubic_, complement(x), {x, 0}, 3);
+    const Dyadic t(x);
+    return earlier_roots(near ? *near : exact_part_signs(*cubic_, {Dyadic(1) - t, t}));
+  };
+  if (earlier(lower_) != index_ || earlier(upper_) != index_ + 1) return;
+  if (index_ % 2 != 0) before_ = -before_;
+  index_ = 0;
+  count_ = 1;
 }
 
 void Root::narrow_to_neighbours() {
@@ -201,23 +222,22 @@ void Root::narrow_to_neighbours() {
   upper_ = number(high);
 }
 
+/// Where the zero of the line is not in (0, 1), or not in the enclosure, the ends of that tell.
 DefiniteSign Root::sign(const Line& l) const {
-  const DefiniteSign a = sign_of(l.exact[0]), b = sign_of(l.exact[1]);
-  if (a == b) return a;
-  if (is_ratio()) return sign_at(l.exact, ratio_);
-  const auto ends = generated::line_between<bound::tight, double>::evaluate(l.near.data(), lower_, upper_);
-  if (const DefiniteSign s = common_sign(ends.part); s != DefiniteSign::zero) return s;
-  const auto [before, after] = sides(a, b);
-  const Line at = polynomial<2>({abs(l.exact[1]), abs(l.exact[0])});
-  switch (order({at.exact[0], at.exact[1]}, at.near[0], at.near[1])) {
-    case DefiniteSign::negative:
-      return before;
-    case DefiniteSign::zero:
-      return DefiniteSign::zero;
-    case DefiniteSign::positive:
-      return after;
-  }
-  return DefiniteSign::zero;
+  if (is_ratio()) return sign_at(l, ratio_);
+  const DefiniteSign a = sign_of(l[0]), b = sign_of(l[1]);
+  if (!opposite(a, b)) return a == DefiniteSign::zero ? b : a;
+  const auto ends = generated::line_between<bound::exact, double>::evaluate_values(l.data(), lower_, upper_);
+  const DefiniteSign at_lower = sign_of(ends.part[0]);
+  if (at_lower == sign_of(ends.part[1])) return at_lower;
+  return order(zero_of(l)) * b;
+}
+
+/// Does the line have opposite signs at the ends of the enclosure?
+bool Root::crosses(const Line& l) const {
+  if (!opposite(sign_of(l[0]), sign_of(l[1]))) return false;
+  const auto ends = generated::line_between<bound::exact, double>::evaluate_values(l.data(), lower_, upper_);
+  return opposite(sign_of(ends.part[0]), sign_of(ends.part[1]));
 }
 
 DefiniteSign Root::sign(const Quadratic& j) const {
@@ -237,12 +257,11 @@ DefiniteSign Root::sign(const Quadratic& j) const {
 /// at the zero of n so does Y, and if that is in (0, 1), where Y has but one root, it is this time. j has a lower
 /// degree than Y: asked first.
 DefiniteSign Root::sign_by_division(const Quadratic& j) const {
-  if (is_linear(j)) return sign(polynomial<2>({j.exact[0], j.exact[2]}));
+  if (is_linear(j)) return sign(Line{j.exact[0], j.exact[2]});
   const auto [m, n] = division(*cubic_, j);
-  const bool crosses = opposite(sign_of(n.exact[0]), sign_of(n.exact[1]));
-  if (count_ == 1 && crosses && sign_at(j, zero_of(n.exact)) == DefiniteSign::zero) return DefiniteSign::zero;
+  if (count_ == 1 && crosses(n) && sign_at(j, zero_of(n)) == DefiniteSign::zero) return DefiniteSign::zero;
   if (const DefiniteSign on_m = sign(m); on_m != DefiniteSign::zero) return -(on_m * sign(n));
-  return sign_at(j, zero_of(is_zero(m) ? n.exact : m.exact));
+  return sign_at(j, zero_of(is_zero(m) ? n : m));
 }
 
 /// With binomial coefficients multiplied in, the Bernstein coefficients are those of a binary form in (1 - t, t); its
@@ -271,7 +290,7 @@ std::vector<Root> inner_roots(const Cubic& k) {
     case DefiniteSign::zero: {
       // The form is a^2 b, its Hessian a multiple of a^2; if a = b the Hessian is zero, and the form a^3.
       const bool triple = h[0].sign() == 0 && h[1].sign() == 0 && h[2].sign() == 0;
-      const Ratio multiple = triple ? zero_of({k.exact[0], k.exact[1]}) : zero_of({h[0], h[1]});
+      const Ratio multiple = triple ? zero_of(Line{k.exact[0], k.exact[1]}) : zero_of(Line{h[0], h[1]});
       roots.push_back(Root(multiple, 0, 1));
       if (triple || count == 2) break;
       const auto part = exact_part_signs(k, multiple);

@@ -12,6 +12,9 @@
 
 namespace tightrope::ccd::exact {
 
+/// The signs of a cubic's coefficients over [0, x], but the first; the last is that of its value at x.
+using PartSigns = std::array<DefiniteSign, 3>;
+
 /// The time t / (s + t), s, t >= 0, not both 0.
 struct Ratio {
   Dyadic s, t;
@@ -47,18 +50,24 @@ class Root {
   /// Root number `index` of `count` in (0, 1), roots counted with multiplicity.
   Root(const Cubic& cubic, int index, int count, DefiniteSign before)
       : cubic_(&cubic), index_(index), count_(count), before_(before) {}
+  int earlier_roots(const PartSigns& part) const;
+  void isolate();
   double estimate() const;
   /// How many doubles away from the estimate floating point tells the sign of the cubic.
   std::uint64_t first_step(double estimate) const;
 
-  DefiniteSign order(const Ratio& other, const Bounded<double>& s, const Bounded<double>& t) const;
+  DefiniteSign order(const PartSigns& part) const;
+  DefiniteSign order(const Ratio& other) const;
   DefiniteSign order(double x);
+  bool crosses(const Line& l) const;
   DefiniteSign sign_by_division(const Quadratic& j) const;
 
   bool is_ratio() const { return cubic_ == nullptr; }
 
   Ratio ratio_;
   const Cubic* cubic_ = nullptr;  ///< none: this is the ratio
+  // This is number index_ of count_ roots in (0, 1), with multiplicity; or the only root in (lower_, upper_), count_
+  // = 1.
   int index_ = 0, count_ = 0;
   DefiniteSign before_ = DefiniteSign::zero;  ///< of the cubic before the first of these roots
   double lower_ = 0, upper_ = 1;

@@ -16,6 +16,7 @@ using exact::DefiniteSign;
 using exact::elevated;
 using exact::Functions;
 using exact::inner_roots;
+using exact::is_zero;
 using exact::Line;
 using exact::Quadratic;
 using exact::Root;

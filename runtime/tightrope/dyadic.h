@@ -68,6 +68,14 @@ class Dyadic {
     return i >= 0 && i < static_cast<std::int64_t>(limbs_.size()) ? limbs_[static_cast<std::size_t>(i)] : 0;
   }
   Dyadic(detail::Limbs limbs, std::int64_t offset) : limbs_(std::move(limbs)), offset_(offset) {}
+  /// (carry 2^128 + magnitude) 2^(64 offset), with a sign.
+  static Dyadic of_wide(detail::Wide magnitude, std::uint64_t carry, std::int64_t offset, bool negative);
+  /// Of one or two limbs, not zero.
+  bool is_short() const { return limbs_.size() - 1 < 2; }
+  detail::Wide short_magnitude() const {
+    const std::uint64_t* d = limbs_.data();
+    return limbs_.size() == 1 ? d[0] : static_cast<detail::Wide>(d[1]) << 64 | d[0];
+  }
   /// From the lowest limb of a to that of b, which is not below it.
   static std::size_t distance(const Dyadic& a, const Dyadic& b) {
     return static_cast<std::size_t>(b.offset_ - a.offset_);
@@ -86,22 +94,34 @@ class Dyadic {
   bool negative_ = false;
 };
 
+inline Dyadic Dyadic::of_wide(detail::Wide magnitude, std::uint64_t carry, std::int64_t offset, bool negative) {
+  const auto low = static_cast<std::uint64_t>(magnitude), high = static_cast<std::uint64_t>(magnitude >> 64);
+  Dyadic r;
+  if (low != 0) {
+    r.limbs_.set(low, high, carry);
+  } else if (high != 0) {
+    r.limbs_.set(high, carry, 0);
+    ++offset;
+  } else if (carry != 0) {
+    r.limbs_.set(carry, 0, 0);
+    offset += 2;
+  } else {
+    return r;
+  }
+  r.offset_ = offset;
+  r.negative_ = negative;
+  return r;
+}
+
 inline Dyadic::Dyadic(double value) {
   const auto pattern = std::bit_cast<std::uint64_t>(value);
   const int biased = static_cast<int>(pattern >> 52 & 0x7ff);
   std::uint64_t significand = pattern & ((std::uint64_t{1} << 52) - 1);
   if (biased == 0x7ff) detail::exact_precondition_violated("Dyadic is made of a finite number");
   if (biased != 0) significand |= std::uint64_t{1} << 52;
-  if (significand == 0) return;
   const int exponent = (biased == 0 ? 1 : biased) - 1075;  // value = +-significand * 2^exponent
   const int shift = exponent & 63;
-  offset_ = (exponent - shift) / 64;
-  const detail::Wide shifted = static_cast<detail::Wide>(significand) << shift;
-  limbs_ = detail::Limbs(2);
-  limbs_.data()[0] = static_cast<std::uint64_t>(shifted);
-  limbs_.data()[1] = static_cast<std::uint64_t>(shifted >> 64);
-  negative_ = pattern >> 63 != 0;
-  normalise();
+  *this = of_wide(static_cast<detail::Wide>(significand) << shift, 0, (exponent - shift) / 64, pattern >> 63 != 0);
 }
 
 inline void Dyadic::normalise() {
@@ -177,6 +197,11 @@ inline Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_negative) {
     r.negative_ = b_negative;
     return r;
   }
+  if (a.offset_ == b.offset_ && a.is_short() && b.is_short()) {
+    const detail::Wide x = a.short_magnitude(), y = b.short_magnitude();
+    if (a.negative_ == b_negative) return of_wide(x + y, x + y < x ? 1 : 0, a.offset_, b_negative);
+    return x < y ? of_wide(y - x, 0, a.offset_, b_negative) : of_wide(x - y, 0, a.offset_, a.negative_);
+  }
   if (a.negative_ == b_negative) {
     Dyadic r = a.offset_ <= b.offset_ ? add_magnitudes(a, b) : add_magnitudes(b, a);
     r.negative_ = b_negative;
@@ -194,6 +219,10 @@ inline Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_negative) {
 inline Dyadic operator*(const Dyadic& a, const Dyadic& b) {
   const std::size_t na = a.limbs_.size(), nb = b.limbs_.size();
   if (na == 0 || nb == 0) return {};
+  if (na == 1 && nb == 1) {
+    const detail::Wide product = static_cast<detail::Wide>(*a.limbs_.data()) * *b.limbs_.data();
+    return Dyadic::of_wide(product, 0, a.offset_ + b.offset_, a.negative_ != b.negative_);
+  }
   Dyadic r(detail::Limbs(na + nb), a.offset_ + b.offset_);
   detail::multiply(a.limbs_.data(), na, b.limbs_.data(), nb, r.limbs_.data());
   r.negative_ = a.negative_ != b.negative_;

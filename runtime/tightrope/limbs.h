@@ -54,6 +54,14 @@ class Limbs {
   const std::uint64_t* data() const { return heap_ ? heap_.get() : inline_.data(); }
   std::uint64_t operator[](std::size_t i) const { return data()[i]; }
 
+  /// Up to three limbs, zero ones at the high end left out; for an object without limbs, low not zero.
+  void set(std::uint64_t low, std::uint64_t middle, std::uint64_t high) {
+    inline_[0] = low;
+    inline_[1] = middle;
+    inline_[2] = high;
+    size_ = high != 0 ? 3 : middle != 0 ? 2 : 1;
+  }
+
   /// Removes zero limbs at both ends; returns how many were removed at the low end.
   std::size_t trim() {
     std::uint64_t* d = data();
