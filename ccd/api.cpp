@@ -40,6 +40,8 @@ Decision<Real> decision(Method method) {
       return {safe_collides<Real>, safe_collides<Real>};
     case Method::safe_tight:
       return {safe_tight_collides<Real>, safe_tight_collides<Real>};
+    case Method::tightrope:
+      return {tightrope_collides<Real>, tightrope_collides<Real>};
   }
   return {tight_collides<Real>, tight_collides<Real>};
 }

@@ -29,6 +29,16 @@ MovingPoint<Real> moving_point(const Real* points, int index) {
   return {points + 3 * index, points + 3 * (index + points_per_query / 2)};
 }
 
+/// A query's coordinates in double precision, which holds those of single precision exactly.
+inline std::span<const double, numbers_per_query> in_double_precision(const double* points) {
+  return std::span<const double, numbers_per_query>(points, numbers_per_query);
+}
+inline std::array<double, numbers_per_query> in_double_precision(const float* points) {
+  std::array<double, numbers_per_query> result;
+  std::copy_n(points, result.size(), result.begin());
+  return result;
+}
+
 /// The pairs of points of different features.
 inline std::span<const std::array<int, 2>> pairs_of_features(Kind kind) {
   using Points = std::array<int, 2>;

@@ -12,6 +12,7 @@ constexpr auto all_methods = std::to_array<MethodInfo>({
     {Method::bsc_exact, "bsc-exact", "exact", true, "Wang et al. 2015 (TightCCD), every sign exact", true},
     {Method::safe, "safe", "SafeBound", true, "Wang 2014 (SafeCCD), its holes closed"},
     {Method::safe_tight, "safe-tight", "TightBound", true, "Wang 2014 (SafeCCD) with the bounds of Wang et al. 2015"},
+    {Method::tightrope, "tightrope", "exact", true, "ours: subdivision on the exact contact criterion", true},
 });
 
 }  // namespace

@@ -29,6 +29,11 @@ template <class Real>
 bool safe_tight_collides(Kind kind, const Real* points, CountingSignReader& signs);
 
 template <class Real>
+bool tightrope_collides(Kind kind, const Real* points);
+template <class Real>
+bool tightrope_collides(Kind kind, const Real* points, CountingSignReader& signs);
+
+template <class Real>
 bool bsc_exact_collides(Kind kind, const Real* points);
 template <class Real>
 bool bsc_exact_collides(Kind kind, const Real* points, CountingSignReader& signs);

@@ -26,6 +26,7 @@ enum class Method {
   bsc_exact,   ///< with every sign exact: no false positives
   safe,        ///< root finding and inside tests with SafeBound: SafeCCD [Wang 2014], repaired
   safe_tight,  ///< the same with TightBound
+  tightrope,   ///< ours: subdivision on the exact contact criterion, then exact arithmetic; no false positives
 };
 
 struct MethodInfo {
