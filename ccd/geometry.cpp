@@ -21,7 +21,7 @@ NormalizedQuery<Real> normalize(const Real* points) {
   NormalizedQuery<Real> query{{}, NormalizedQuery<Real>::Kind::scaled};
   std::array<Real, numbers_per_query>& x = query.points;
   std::copy_n(points, x.size(), x.begin());
-  if (!std::all_of(x.begin(), x.end(), [](Real coordinate) { return std::isfinite(coordinate); })) {
+  if (!has_finite_coordinates(points)) {
     query.kind = NormalizedQuery<Real>::Kind::not_finite;
     return query;
   }

@@ -68,6 +68,11 @@ bool has_moderate_coordinates(const Real* points) {
   return moderate;
 }
 
+template <class Real>
+bool has_finite_coordinates(const Real* points) {
+  return std::all_of(points, points + numbers_per_query, [](Real x) { return std::isfinite(x); });
+}
+
 /// Largest difference between two of the four points in one coordinate at one end of the step.
 template <class Real>
 Real spread(const Real* points) {

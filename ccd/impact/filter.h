@@ -12,17 +12,42 @@
 #include "ccd/impact/stage.h"
 #include "ccd/impact/subdivision.h"
 
+namespace tightrope::generated {
+template <class Bound, class Real>
+struct plane_of_face;
+template <class Bound, class Real>
+struct plane_of_edges;
+}  // namespace tightrope::generated
+
 namespace tightrope::ccd {
+
+/// Does a plane of fixed direction separate the features all the time: one along the face, or along both edges, as they
+/// are at t = 0 (`Start`) or at t = 1 (MATH 3.6)?
+template <bool Start, class Real, class Signs>
+bool separated_by_plane(Kind kind, const Real* points, Signs& signs) {
+  const Real *x = points + (Start ? 0 : 12), *y = points + (Start ? 12 : 0);
+  const auto one_side = [&](const auto& sides) {
+    return common(signs(sides.near), common(read_all(signs, sides.far))) != Sign::uncertain;
+  };
+  switch (kind) {
+    case Kind::vertex_face:
+      return one_side(
+          generated::plane_of_face<bound::safe, Real>::evaluate(x, x + 3, x + 6, x + 9, y, y + 3, y + 6, y + 9));
+    case Kind::edge_edge:
+      return one_side(
+          generated::plane_of_edges<bound::safe, Real>::evaluate(x, x + 3, x + 6, x + 9, y, y + 3, y + 6, y + 9));
+  }
+  return false;
+}
 
 struct Filtered {
   Stage stage;  ///< exact: the finding is open
   Finding finding;
 };
 
-/// Not inlined: what comes before it settles nearly every query, with few registers and no frame.
 template <class Signs>
-[[gnu::noinline]] Filtered filtered_by_polynomials(Kind kind, const double* points, bool scaled, Question question,
-                                                   double t_max, Signs& signs) {
+Filtered filtered_by_polynomials(Kind kind, const double* points, bool scaled, Question question, double t_max,
+                                 Signs& signs) {
   Filtered result{Stage::hull, {Verdict::no_contact}};
   const auto decide = [&](const Bounded<double>(&k)[4], const auto& compute_quadratics) {
     if (common(read_all(signs, k)) != Sign::uncertain) return false;
@@ -40,28 +65,34 @@ template <class Signs>
   return result;
 }
 
-/// `points` holds 24 numbers; not finite ones leave the query open.
+/// All but the first look. Not inlined: that settles nearly every query, with few registers and no frame.
 template <class Signs>
-Filtered filtered(Kind kind, const double* points, Question question, double t_max, Signs& signs) {
-  if (has_moderate_coordinates(points)) {
-    if (never_coplanar<bound::safe>(kind, points, signs)) return {Stage::first_look, {Verdict::no_contact}};
-    if (separated(kind, points, signs)) return {Stage::separation, {Verdict::no_contact}};
-    if (spread(points) >= least_spread<double>) {
-      return filtered_by_polynomials(kind, points, false, question, t_max, signs);
-    }
+[[gnu::noinline]] Filtered filtered_further(Kind kind, const double* points, Question question, double t_max,
+                                            Signs& signs) {
+  const bool moderate = has_moderate_coordinates(points);
+  if (!moderate && !has_finite_coordinates(points)) return {Stage::exact, {Verdict::open}};
+  if (separated(kind, points, signs) || separated_by_plane<false>(kind, points, signs)) {
+    return {Stage::separation, {Verdict::no_contact}};
+  }
+  if (moderate && spread(points) >= least_spread<double>) {
+    return filtered_by_polynomials(kind, points, false, question, t_max, signs);
   }
   const NormalizedQuery<double> query = normalize(points);
   if (query.kind != NormalizedQuery<double>::Kind::scaled) return {Stage::exact, {Verdict::open}};
-  if (separated(kind, points, signs)) return {Stage::separation, {Verdict::no_contact}};
   return filtered_by_polynomials(kind, query.points.data(), true, question, t_max, signs);
+}
+
+/// `points` holds 24 numbers; not finite ones leave the query open.
+template <class Signs>
+Filtered filtered(Kind kind, const double* points, Question question, double t_max, Signs& signs) {
+  if (separated_by_plane<true>(kind, points, signs)) return {Stage::first_look, {Verdict::no_contact}};
+  return filtered_further(kind, points, question, t_max, signs);
 }
 
 /// Single precision is part of double precision; the first look is taken in single precision.
 template <class Signs>
 Filtered filtered(Kind kind, const float* points, Question question, double t_max, Signs& signs) {
-  if (has_moderate_coordinates(points) && never_coplanar<bound::safe>(kind, points, signs)) {
-    return {Stage::first_look, {Verdict::no_contact}};
-  }
+  if (separated_by_plane<true>(kind, points, signs)) return {Stage::first_look, {Verdict::no_contact}};
   return filtered(kind, in_double_precision(points).data(), question, t_max, signs);
 }
 

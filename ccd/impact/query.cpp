@@ -2,12 +2,12 @@
 /// impact by the same stages.
 
 #include "edge_edge.safe.double.h"
-#include "edge_edge.safe.float.h"
 #include "edge_edge.tight.double.h"
+#include "separating_plane.safe.double.h"
+#include "separating_plane.safe.float.h"
 #include "subdivision.float.double.h"
 #include "subdivision.tight.double.h"
 #include "vertex_face.safe.double.h"
-#include "vertex_face.safe.float.h"
 #include "vertex_face.tight.double.h"
 
 // After the generated headers:
@@ -21,16 +21,12 @@ namespace {
 
 Pair pair_of(Kind kind) { return kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge; }
 
-bool finite(const double* points) {
-  return std::all_of(points, points + numbers_per_query, [](double x) { return std::isfinite(x); });
-}
-
 template <class Real, class Signs>
 bool decide(Kind kind, const Real* points, Signs& signs) {
   const Filtered f = filtered(kind, points, Question::whether, 1, signs);
   if (f.stage != Stage::exact) return f.finding.verdict == Verdict::contact;
   const auto& exact_points = in_double_precision(points);
-  return !finite(exact_points.data()) || exact_contact(pair_of(kind), exact_points.data());
+  return !has_finite_coordinates(points) || exact_contact(pair_of(kind), exact_points.data());
 }
 
 /// The time of first contact; coordinates are finite.
@@ -80,7 +76,7 @@ std::optional<Impact> first_touch(Kind kind, const Real* points, double toleranc
   const Filtered f = filtered(kind, points, Question::when, t_max, signs);
   if (f.stage != Stage::exact && f.finding.verdict == Verdict::no_contact) return std::nullopt;
   const auto& exact_points = in_double_precision(points);
-  if (!finite(exact_points.data())) return Impact{0, weights_of_first_vertices(kind)};
+  if (!has_finite_coordinates(points)) return Impact{0, weights_of_first_vertices(kind)};
   const auto time = first_contact(kind, exact_points.data(), f, tolerance, t_max);
   if (!time) return std::nullopt;
   return Impact{time->lower, contact_weights(kind, exact_points.data(), time->lower + (time->upper - time->lower) / 2)};

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "edge_edge.safe.double.h"
-#include "edge_edge.safe.float.h"
 #include "edge_edge.tight.double.h"
+#include "separating_plane.safe.double.h"
+#include "separating_plane.safe.float.h"
 #include "subdivision.float.double.h"
 #include "subdivision.tight.double.h"
 #include "vertex_face.safe.double.h"
-#include "vertex_face.safe.float.h"
 #include "vertex_face.tight.double.h"
 
 // After the generated headers:
@@ -174,6 +174,45 @@ TEST_P(Filter, LaterContactsDoNotCount) {
   }
   EXPECT_GT(dropped, 400);
   EXPECT_GT(kept, 400);
+}
+
+/// Infinite coordinates have signs, too; they prove nothing.
+TEST_P(Filter, IsOpenWhereACoordinateIsNotFinite) {
+  Random random(79);
+  for (const double bad : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+    for (std::size_t i = 0; i < 24; ++i) {
+      Query query = test::miss(GetParam(), random);
+      query[i] = bad;
+      SignReader signs;
+      EXPECT_EQ(filtered(GetParam(), query.data(), Question::whether, 1, signs).stage, Stage::exact);
+      std::array<float, 24> single;
+      for (std::size_t j = 0; j < 24; ++j) single[j] = static_cast<float>(query[j]);
+      EXPECT_EQ(filtered(GetParam(), single.data(), Question::when, 1, signs).stage, Stage::exact);
+    }
+  }
+}
+
+/// Powers of two change nothing, as long as no coordinate is lost; the verdicts at both ends of the exponents' range
+/// are proofs, too.
+TEST_P(Filter, VerdictsAreProofsAtEveryScale) {
+  Judgement judgement;
+  for (std::size_t i = 0; i < queries().size(); i += 7) {
+    for (const int exponent : {-1074, -1030, -700, -340, -110, 110, 340, 700, 1000}) {
+      Query scaled = queries()[i];
+      bool exact = true;
+      for (double& x : scaled) {
+        const double y = std::ldexp(x, exponent);
+        exact = exact && std::ldexp(y, -exponent) == x && std::isfinite(y);
+        x = y;
+      }
+      if (!std::all_of(scaled.begin(), scaled.end(), [](double x) { return std::isfinite(x); })) continue;
+      const auto truth = exact ? truths()[i] : oracle::first_contact(GetParam(), scaled);
+      judge(GetParam(), scaled, Question::when, truth, SignReader(), judgement);
+      ASSERT_EQ(judgement.wrong, 0) << exponent << '\n' << show_query(scaled.data());
+    }
+  }
+  EXPECT_GT(judgement.no_contact, 2000);
+  EXPECT_GT(judgement.contact, 1000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Filter, testing::ValuesIn(kinds), [](const auto& info) {
