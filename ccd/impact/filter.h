@@ -22,7 +22,7 @@ struct plane_of_edges;
 namespace tightrope::ccd {
 
 /// Does a plane of fixed direction separate the features all the time: one along the face, or along both edges, as they
-/// are at t = 0 (`Start`) or at t = 1 (MATH 3.6)?
+/// are at t = 0 (`Start`) or at t = 1 (MATH 3.4a)?
 template <bool Start, class Real, class Signs>
 bool separated_by_plane(Kind kind, const Real* points, Signs& signs) {
   const Real *x = points + (Start ? 0 : 12), *y = points + (Start ? 12 : 0);
