@@ -47,6 +47,18 @@ std::optional<safe::Moments<double>> moments(Kind kind, const std::array<safe::P
   return result;
 }
 
+/// How far apart the weights take the features' points to be, in the largest coordinate.
+double residual(Kind kind, const std::array<safe::Position<double>, 4>& x, const std::array<double, 4>& weights) {
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double first = kind == Kind::vertex_face ? x[0][axis] : weights[0] * x[0][axis] + weights[1] * x[1][axis];
+    double second = weights[2] * x[2][axis] + weights[3] * x[3][axis];
+    if (kind == Kind::vertex_face) second += weights[1] * x[1][axis];
+    largest = std::max(largest, std::fabs(first - second));
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::array<double, 4> contact_weights(Kind kind, const double* points, double t) {
@@ -54,10 +66,13 @@ std::array<double, 4> contact_weights(Kind kind, const double* points, double t)
   if (query.kind != NormalizedQuery<double>::Kind::scaled) return weights_of_first_vertices(kind);
   std::array<safe::Position<double>, 4> x;
   for (int i = 0; i < 4; ++i) x[static_cast<std::size_t>(i)] = safe::position(moving_point(query.points.data(), i), t);
-  if (const auto m = moments(kind, x)) {
-    if (const auto weights = safe::weights_by_normal(kind, *m)) return *weights;
-  }
-  return safe::weights_by_vertex_edge(kind, x);
+  // Where the normal is small its weights are bad, but then the contact is next to an edge.
+  const auto m = moments(kind, x);
+  const auto by_normal = m ? safe::weights_by_normal(kind, *m) : std::nullopt;
+  constexpr double good = 0x1p-40;  // of the size of the query
+  if (by_normal && residual(kind, x, *by_normal) <= good) return *by_normal;
+  const auto by_edge = safe::weights_by_vertex_edge(kind, x);
+  return by_normal && residual(kind, x, *by_normal) < residual(kind, x, by_edge) ? *by_normal : by_edge;
 }
 
 }  // namespace tightrope::ccd
