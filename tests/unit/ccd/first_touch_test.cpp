@@ -220,8 +220,8 @@ TEST_P(FirstTouch, IsInvariant) {
   for (const int count : compared) EXPECT_GT(count, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, FirstTouch, testing::Values(Kind::vertex_face, Kind::edge_edge), [](const auto& info) {
-  return std::string(info.param == Kind::vertex_face ? "vertex_face" : "edge_edge");
+INSTANTIATE_TEST_SUITE_P(Kinds, FirstTouch, testing::Values(Kind::vertex_face, Kind::edge_edge), [](const auto& kind) {
+  return std::string(kind.param == Kind::vertex_face ? "vertex_face" : "edge_edge");
 });
 
 }  // namespace

@@ -215,8 +215,8 @@ TEST_P(Filter, VerdictsAreProofsAtEveryScale) {
   EXPECT_GT(judgement.contact, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Filter, testing::ValuesIn(kinds), [](const auto& info) {
-  return std::string(info.param == Kind::vertex_face ? "vertex_face" : "edge_edge");
+INSTANTIATE_TEST_SUITE_P(Kinds, Filter, testing::ValuesIn(kinds), [](const auto& kind) {
+  return std::string(kind.param == Kind::vertex_face ? "vertex_face" : "edge_edge");
 });
 
 /// The exact value at t of the cubic with Bernstein coefficients y.
