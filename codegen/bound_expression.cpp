@@ -60,6 +60,10 @@ NodeId BoundExpressions::larger(NodeId x, NodeId y) {
   return noted(graph_.binary(Op::max_magnitude, x, y), std::max(roundings(x), roundings(y)));
 }
 
+NodeId BoundExpressions::selected(NodeId condition, NodeId x, NodeId y) {
+  return x == y ? x : noted(graph_.select(condition, x, y), std::max(roundings(x), roundings(y)));
+}
+
 NodeId BoundExpressions::quotient(NodeId x, NodeId y) {
   return noted(graph_.binary(Op::div, x, y), roundings(x) + roundings(y) + 1);
 }

@@ -23,6 +23,7 @@ class BoundExpressions {
   dsl::NodeId times_constant(dsl::NodeId x, double c);  ///< c > 0; exact if it is a power of two
   dsl::NodeId maximum(dsl::NodeId x, dsl::NodeId y);    ///< NaN if either is
   dsl::NodeId larger(dsl::NodeId x, dsl::NodeId y);     ///< maximum that may pass over a NaN in y (Op::max_magnitude)
+  dsl::NodeId selected(dsl::NodeId condition, dsl::NodeId x, dsl::NodeId y);  ///< Op::select of two bounds
   dsl::NodeId quotient(dsl::NodeId x, dsl::NodeId y);
   /// X + D / X of TightBounds::general_root: a radicand's error bound `bound` over this is the root's. `unguarded`: the
   /// radicand is non-negative in itself, and may be less than its bound.

@@ -73,6 +73,8 @@ const char* name(Weakening weakening) {
       return "drop_fma_rounding";
     case Weakening::drop_guards:
       return "drop_guards";
+    case Weakening::drop_second_alternative:
+      return "drop_second_alternative";
   }
   return "";
 }

@@ -72,6 +72,7 @@ enum class Weakening {
   drop_radicand_error,           ///< R_a of sqrt(a)
   drop_fma_rounding,             ///< u |a b + c|
   drop_guards,                   ///< the tests of divisors and radicands
+  drop_second_alternative,       ///< of the values that `either` selects from, what the first one's bound does not say
 };
 
 const char* name(Weakening weakening);  ///< as the enumerator; "" for a number that none of them has

@@ -44,6 +44,7 @@ void OperationCount::add(Op op) {
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
     case Op::max_magnitude:
+    case Op::select:
       ++comparisons;
       break;
     case Op::neg:

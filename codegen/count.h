@@ -12,7 +12,7 @@ struct OperationCount {
   int sums = 0;         ///< add, sub
   int products = 0;     ///< mul
   int divisions = 0;    ///< div, sqrt
-  int comparisons = 0;  ///< min, max, max_magnitude, certain_nonzero, certain_nonnegative
+  int comparisons = 0;  ///< min, max, max_magnitude, select, certain_nonzero, certain_nonnegative
   int exact = 0;        ///< neg, abs, mul_pow2
   int total() const { return sums + products + divisions + comparisons + exact; }
   void add(dsl::Op op);

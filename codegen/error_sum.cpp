@@ -62,6 +62,7 @@ double ErrorSum::perturbation(const Node& n) const {
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
     case Op::max_magnitude:
+    case Op::select:
       break;
   }
   return infinity;
@@ -116,6 +117,7 @@ void ErrorSum::propagate(const Node& n, NodeId d) {
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
     case Op::max_magnitude:
+    case Op::select:
       break;
   }
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "codegen/alternatives.h"
 #include "codegen/simplify.h"
 
 namespace tightrope::codegen {
@@ -218,9 +219,10 @@ class Rewriter {
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
       case Op::max_magnitude:
+      case Op::select:
         break;
     }
-    assert(false && "lowered predicates hold no operations of bounds");
+    assert(false && "here are neither operations of bounds nor selections");
     return plain(graph_.zero());
   }
 
@@ -280,7 +282,7 @@ class Rewriter {
 }  // namespace
 
 std::optional<ExactProgram> exact_program(const dsl::Predicate& original, dsl::Diagnostics& diagnostics) {
-  const dsl::Predicate predicate = simplify(original);
+  const dsl::Predicate predicate = first_alternatives(simplify(original));
   return Rewriter(predicate).finish(diagnostics);
 }
 

@@ -250,6 +250,7 @@ class ImportPrinter {
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
       case Op::max_magnitude:
+      case Op::select:
         assert(false && "imported functions do not have it");
         break;
     }

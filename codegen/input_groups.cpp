@@ -16,31 +16,58 @@ constexpr const char* axis_names[] = {"x", "y", "z"};
 
 InputGroups::InputGroups(const dsl::Predicate& predicate, bool one_group, dsl::Graph& graph)
     : predicate_(predicate), one_group_(one_group), graph_(graph) {
-  const NodeId count = predicate.graph.size();
+  const auto count = static_cast<NodeId>(predicate.graph.size());
   leaf_groups_.assign(static_cast<std::size_t>(count), -1);
-  const auto exact_input = [&](NodeId id) { return graph_[id].op == Op::input && !parameter_of(graph_[id]).bounded; };
-  std::vector<bool> used_directly(static_cast<std::size_t>(count), false);
-  for (const auto& stage : predicate.stages) {
+  std::vector<std::optional<Leaf>> leaves = find_leaves();
+  const std::vector<bool> needed = needed_leaves(leaves);
+  for (const bool inputs : {false, true}) {
+    for (NodeId id = 0; id < count; ++id) {
+      const auto i = static_cast<std::size_t>(id);
+      if (!needed[i] || (graph_[id].op == Op::input) != inputs) continue;
+      Leaf leaf = inputs ? input(graph_[id]) : std::move(*leaves[i]);
+      const NodeId bound = leaf.group.bounded()
+                               ? graph_.input(graph_[id].index + static_cast<std::int32_t>(predicate_.slots.size()))
+                               : no_node;
+      leaf_groups_[i] = enter(std::move(leaf.group), {id, bound}, leaf.range);
+    }
+  }
+}
+
+/// By node: what may be a leaf, negatives of leaves included. Of inputs only exact ones are here.
+std::vector<std::optional<InputGroups::Leaf>> InputGroups::find_leaves() {
+  std::vector<std::optional<Leaf>> leaves(static_cast<std::size_t>(predicate_.graph.size()));
+  for (NodeId id = 0; id < predicate_.graph.size(); ++id) {
+    const Node n = graph_[id];
+    std::optional<Leaf>& leaf = leaves[static_cast<std::size_t>(id)];
+    const auto at = [&](NodeId operand) -> const std::optional<Leaf>& {
+      return leaves[static_cast<std::size_t>(operand)];
+    };
+    if (exact_input(id)) leaf = input(n);
+    if ((n.op == Op::add || n.op == Op::sub) && exact_input(n.a) && exact_input(n.b)) leaf = difference(n);
+    if (n.op == Op::neg) leaf = at(n.a);
+    if (n.op == Op::select && at(n.b) && at(n.c)) leaf = selection(*at(n.b), *at(n.c));
+  }
+  return leaves;
+}
+
+/// Which leaves outputs are computed from, not counting those within other leaves.
+std::vector<bool> InputGroups::needed_leaves(const std::vector<std::optional<Leaf>>& leaves) const {
+  std::vector<bool> needed(leaves.size(), false);
+  for (const auto& stage : predicate_.stages) {
     for (const auto& output : stage.outputs) {
-      for (const NodeId id : output.nodes) used_directly[static_cast<std::size_t>(id)] = true;
+      for (const NodeId id : output.nodes) needed[static_cast<std::size_t>(id)] = true;
     }
   }
-  for (NodeId id = 0; id < count; ++id) {
-    const Node n = graph_[id];
-    if ((n.op == Op::add || n.op == Op::sub) && exact_input(n.a) && exact_input(n.b)) {
-      leaf_groups_[static_cast<std::size_t>(id)] = enter_difference(n, id);
-      continue;
-    }
-    for (const NodeId operand : {n.a, n.b, n.c}) {
-      if (operand != no_node) used_directly[static_cast<std::size_t>(operand)] = true;
-    }
-  }
-  for (NodeId id = 0; id < count; ++id) {
-    const Node n = graph_[id];
-    if (n.op == Op::input && used_directly[static_cast<std::size_t>(id)]) {
-      leaf_groups_[static_cast<std::size_t>(id)] = enter_input(n, id);
+  for (auto id = static_cast<NodeId>(leaves.size()) - 1; id >= 0; --id) {
+    const auto i = static_cast<std::size_t>(id);
+    const Node& n = graph_[id];
+    if (!needed[i] || n.op == Op::input || (leaves[i] && n.op != Op::neg)) continue;
+    needed[i] = false;
+    for (const NodeId operand : {n.op == Op::select ? no_node : n.a, n.b, n.c}) {
+      if (operand != no_node) needed[static_cast<std::size_t>(operand)] = true;
     }
   }
+  return needed;
 }
 
 double InputGroups::range_of(const Node& n) const {
@@ -79,26 +106,25 @@ int InputGroups::enter(InputGroup wanted, GroupMember member, double range) {
   return static_cast<int>(group - groups_.begin());
 }
 
-int InputGroups::enter_input(const Node& n, NodeId id) {
+InputGroups::Leaf InputGroups::input(const Node& n) {
   const dsl::Parameter& p = parameter_of(n);
   const dsl::Slot& slot = slot_of(n);
   InputGroup group;
   if (p.bounded) {
-    const NodeId bound = graph_.input(n.index + static_cast<std::int32_t>(predicate_.slots.size()));
     group.kind = InputGroup::Kind::bounded;
     group.index = slot.parameter;
     group.name = p.name;
-    return enter(std::move(group), {id, bound}, range_of(n));
+    return {std::move(group), range_of(n)};
   }
   group.list = list_of(slot.parameter);
   const bool scalar = p.dimension == 1;
   group.kind = scalar ? InputGroup::Kind::scalar : InputGroup::Kind::vectors;
   group.index = !scalar ? slot.component : group.list >= 0 ? -1 : slot.parameter;  // a list's scalars are one group
   group.name = !scalar ? std::string("v_") + axis_names[slot.component] : group.list >= 0 ? "b" : p.name;
-  return enter(std::move(group), {id, no_node}, range_of(n));
+  return {std::move(group), range_of(n)};
 }
 
-int InputGroups::enter_difference(const Node& n, NodeId id) {
+InputGroups::Leaf InputGroups::difference(const Node& n) const {
   const Node& x = graph_[n.a];
   const Node& y = graph_[n.b];
   const dsl::Slot& sx = slot_of(x);
@@ -112,8 +138,18 @@ int InputGroups::enter_difference(const Node& n, NodeId id) {
                         sx.component == sy.component && sx.time != sy.time;
   group.name = group.displacements ? "s" : "d";
   if (one_axis) group.name += std::string("_") + axis_names[sx.component];
-  const double range = (range_of(x) + range_of(y)) * (1 + 0x1p-10);
-  return enter(std::move(group), {id, no_node}, range);
+  return {std::move(group), (range_of(x) + range_of(y)) * (1 + 0x1p-10)};
+}
+
+InputGroups::Leaf InputGroups::selection(const Leaf& first, const Leaf& second) const {
+  const auto axis = [](const InputGroup& g) { return g.kind == InputGroup::Kind::scalar ? -1 : g.index; };
+  InputGroup group;
+  group.kind = InputGroup::Kind::selected;
+  group.index = axis(first.group) == axis(second.group) ? axis(first.group) : -1;
+  group.list = first.group.list == second.group.list ? first.group.list : -1;
+  group.displacements = first.group.displacements && second.group.displacements;
+  group.name = group.index >= 0 ? std::string("c_") + axis_names[group.index] : "c";
+  return {std::move(group), std::max(first.range, second.range)};
 }
 
 int InputGroups::enter_computed(const std::string& name, NodeId value, NodeId bound) {

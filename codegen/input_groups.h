@@ -1,6 +1,7 @@
 #pragma once
 /// The groups of inputs that share one run-time maximum in SafeBound (safe_bound.h), and their maxima as nodes.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,9 @@ struct GroupMember {
 };
 
 struct InputGroup {
-  enum class Kind { differences, vectors, scalar, bounded, all } kind = Kind::all;
-  int index = 0;  ///< differences, vectors: the axis (-1: not along one axis); scalar, bounded: the parameter, or a
-                  ///< number beyond
+  enum class Kind { differences, vectors, scalar, bounded, selected, all } kind = Kind::all;
+  int index = 0;  ///< differences, vectors, selected: the axis (-1: not along one axis); scalar, bounded: the
+                  ///< parameter, or a number beyond
   int list = -1;  ///< of `group (a, b), (c)`: the list that all its inputs are in, or -1
   bool displacements = false;  ///< of `group displacements`: differences of one input at two times
   std::string name;            ///< for people: "d_x"
@@ -37,7 +38,8 @@ class InputGroups {
   int size() const { return static_cast<int>(groups_.size()); }
   const InputGroup& operator[](int group) const { return groups_[static_cast<std::size_t>(group)]; }
   /// The group of a node if it is a leaf, else -1. Leaves: sums and differences of two exact inputs, and inputs that
-  /// are used in any other way.
+  /// are used in any other way; selections among these (and their negatives), and then the maximum of the group is that
+  /// of the values taken, and those not taken need not be in any.
   int of(dsl::NodeId id) const { return leaf_groups_[static_cast<std::size_t>(id)]; }
   std::vector<std::string> names() const;
   std::vector<double> ranges() const;
@@ -55,8 +57,19 @@ class InputGroups {
  private:
   int enter(InputGroup group, GroupMember member, double range);
   int list_of(int parameter) const;
-  int enter_input(const dsl::Node& n, dsl::NodeId id);
-  int enter_difference(const dsl::Node& n, dsl::NodeId id);
+  /// A group as it would be made for one leaf alone, and how large that leaf can be.
+  struct Leaf {
+    InputGroup group;
+    double range = 0;
+  };
+  Leaf input(const dsl::Node& n);
+  Leaf difference(const dsl::Node& n) const;
+  Leaf selection(const Leaf& first, const Leaf& second) const;
+  std::vector<std::optional<Leaf>> find_leaves();
+  std::vector<bool> needed_leaves(const std::vector<std::optional<Leaf>>& leaves) const;
+  bool exact_input(dsl::NodeId id) const {
+    return graph_[id].op == dsl::Op::input && !parameter_of(graph_[id]).bounded;
+  }
   const dsl::Slot& slot_of(const dsl::Node& n) const { return predicate_.slots[static_cast<std::size_t>(n.index)]; }
   const dsl::Parameter& parameter_of(const dsl::Node& n) const {
     return predicate_.parameters[static_cast<std::size_t>(slot_of(n).parameter)];

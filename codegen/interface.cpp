@@ -20,6 +20,7 @@ std::set<std::string> reserved_names(const dsl::Predicate& predicate) {
                                  "minimum",
                                  "maximum",
                                  "max_magnitude",
+                                 "choose",
                                  "make_uncertain",
                                  "certain_nonzero",
                                  "certain_nonnegative",

@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "codegen/alternatives.h"
 #include "codegen/bound_expression.h"
 #include "codegen/precision.h"
 
@@ -53,6 +54,7 @@ class IntervalBounds {
   Interval product(const Node& n);
   Interval square(const Interval& a);
   Interval fused(const Node& n);
+  Interval selection(const Node& n);
   Interval quotient(const Node& n);
   Interval square_root(const Interval& a);
   Interval absolute(const Interval& a);
@@ -151,6 +153,15 @@ Interval IntervalBounds::fused(const Node& n) {
   return outward(hull(Op::min, c.lo), hull(Op::max, c.hi), Weakening::drop_rounding_of_products);
 }
 
+/// The interval of the value that is taken; the condition is computed as it stands.
+Interval IntervalBounds::selection(const Node& n) {
+  const Interval first = at(n.b);
+  const Interval second = at(n.c);
+  if (weakened(Weakening::drop_second_alternative)) return first;
+  const NodeId lo = graph_.select(n.a, first.lo, second.lo);
+  return {lo, first.exact() && second.exact() ? lo : graph_.select(n.a, first.hi, second.hi)};
+}
+
 /// max(lo, -hi) is positive where the divisor's interval is on one side of 0; g - g is 0 there and NaN elsewhere.
 Interval IntervalBounds::quotient(const Node& n) {
   const Interval a = at(n.a);
@@ -225,6 +236,8 @@ Interval IntervalBounds::rule(NodeId id, const Node& n) {
       return {graph_.binary(n.op, at(n.a).lo, at(n.b).lo), graph_.binary(n.op, at(n.a).hi, at(n.b).hi)};
     case Op::fma:
       return fused(n);
+    case Op::select:
+      return selection(n);
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
     case Op::max_magnitude:
@@ -247,9 +260,10 @@ BoundedNode IntervalBounds::output(NodeId id) {
 }
 
 void IntervalBounds::run(BoundedPredicate& result) {
+  const std::vector<bool> has_bound = value_nodes(predicate_);
   for (NodeId id = 0; id < predicate_.graph.size(); ++id) {
     const Node n = predicate_.graph[id];
-    intervals_.push_back(rule(id, n));
+    intervals_.push_back(has_bound[static_cast<std::size_t>(id)] ? rule(id, n) : Interval{});
   }
   for (const auto& stage : predicate_.stages) {
     BoundedStage& bounded = result.stages.emplace_back();

@@ -109,6 +109,9 @@ std::vector<Real> published_bounds(const dsl::Graph& graph, std::span<const Real
       case Op::max_magnitude:
         result = std::max(at(r, node.a), at(r, node.b));
         break;
+      case Op::select:
+        result = values[static_cast<std::size_t>(node.a)] >= 0 ? at(r, node.b) : at(r, node.c);
+        break;
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
       case Op::sqrt:

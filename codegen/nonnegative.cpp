@@ -33,6 +33,9 @@ std::vector<bool> nonnegative_nodes(const dsl::Graph& graph) {
       case Op::min:
         known = both();
         break;
+      case Op::select:
+        known = at(n.b) && at(n.c);
+        break;
       case Op::max:
       case Op::max_magnitude:
         known = at(n.a) || at(n.b);

@@ -146,6 +146,8 @@ std::string PredicatePrinter::expression(NodeId id) const {
       return fmt::format("{}({}, {})", dsl::op_name(node.op), a, b);
     case Op::max_magnitude:
       return fmt::format("max_magnitude({}, {})", a, b);
+    case Op::select:
+      return fmt::format("choose({}, {}, {})", a, b, operand(node.c));
     case Op::fma:
       return fmt::format("__builtin_fma{}({}, {}, {})", suffix, a, b, operand(node.c));
   }

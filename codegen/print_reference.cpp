@@ -49,9 +49,12 @@ std::string call(const Node& node, const std::vector<int>& line) {
       return fmt::format("max({}, {})", at(node.a), at(node.b));
     case Op::fma:
       return fmt::format("fma({}, {}, {})", at(node.a), at(node.b), at(node.c));
+    case Op::max_magnitude:
+      return fmt::format("larger({}, {})", at(node.a), at(node.b));
+    case Op::select:
+      return fmt::format("select({}, {}, {})", at(node.a), at(node.b), at(node.c));
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
-    case Op::max_magnitude:
       break;
   }
   assert(false && "lowered predicates hold no operations of bounds");

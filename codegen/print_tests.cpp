@@ -38,6 +38,13 @@ int degree(const dsl::Graph& graph) {
   return degrees.empty() ? 0 : *std::max_element(degrees.begin(), degrees.end());
 }
 
+bool has_alternatives(const dsl::Graph& graph) {
+  for (dsl::NodeId id = 0; id < graph.size(); ++id) {
+    if (graph[id].op == dsl::Op::select) return true;
+  }
+  return false;
+}
+
 class TestPrinter {
  public:
   TestPrinter(const dsl::Predicate& predicate, const TestOptions& options, int budget)
@@ -201,6 +208,7 @@ void TestPrinter::print_checks(Precision precision) {
     test(test_name, "check_family", fmt::format(", Family::{}", family));
   }
   if (has_range_) test("keeps_declared_ranges", "check_ranges", "");
+  if (has_alternatives(predicate_.graph)) test("alternatives_are_equal", "check_alternatives", "");
   if (!has_bounds_) return;
   test("covers_the_worst_errors_found", "check_worst_errors", "");
   test("bounds_are_of_use", "check_usefulness", "");

@@ -99,6 +99,8 @@ Range root(const Range& x) { return {root_down(std::max(x.lo, 0.0)), root_up(std
 Range scaled(const Range& x, int exponent) { return {scaled_down(x.lo, exponent), scaled_up(x.hi, exponent)}; }
 Range absolute(const Range& x) { return {mignitude(x), magnitude(x)}; }
 Range minimum(const Range& x, const Range& y) { return {std::min(x.lo, y.lo), std::min(x.hi, y.hi)}; }
+Range hull(const Range& x, const Range& y) { return {std::min(x.lo, y.lo), std::max(x.hi, y.hi)}; }
+
 Range maximum(const Range& x, const Range& y) { return {std::max(x.lo, y.lo), std::max(x.hi, y.hi)}; }
 Range widened(const Range& x, double distance) { return {sum_down(x.lo, -distance), sum_up(x.hi, distance)}; }
 Range intersection(const Range& x, const Range& y) { return {std::max(x.lo, y.lo), std::min(x.hi, y.hi)}; }

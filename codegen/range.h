@@ -41,6 +41,7 @@ Range scaled(const Range& x, int exponent);
 Range absolute(const Range& x);
 Range minimum(const Range& x, const Range& y);
 Range maximum(const Range& x, const Range& y);
+Range hull(const Range& x, const Range& y);
 /// All numbers within `distance` of an element.
 Range widened(const Range& x, double distance);
 /// The elements that two enclosures of the same number share.

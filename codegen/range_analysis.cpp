@@ -119,6 +119,8 @@ Range RangeAnalysis::interval(const Node& n) const {
     case Op::max:
     case Op::max_magnitude:
       return maximum(of(n.a), of(n.b));
+    case Op::select:
+      return hull(of(n.b), of(n.c));
     case Op::fma:
       return (n.a == n.b ? square(of(n.a)) : of(n.a) * of(n.b)) + of(n.c);
     case Op::certain_nonzero:
@@ -155,10 +157,12 @@ Support RangeAnalysis::support(const Node& n) const {
     case Op::max_magnitude:
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::select:
       break;
   }
   Support all = support(n.a);
   if (n.b != no_node) all = all.joined(support(n.b));
+  if (n.c != no_node) all = all.joined(support(n.c));
   return all.multiplied(all);
 }
 
@@ -239,6 +243,7 @@ void RangeAnalysis::evaluate_vertex(unsigned vertex) {
       case Op::max_magnitude:
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
+      case Op::select:
         v = {0, infinity};  // never below a multi-affine node
         break;
     }

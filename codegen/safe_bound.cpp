@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "codegen/alternatives.h"
 #include "codegen/bound_expression.h"
 #include "codegen/input_groups.h"
 #include "codegen/magnitude_polynomial.h"
@@ -254,6 +255,13 @@ Pair SafeBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
       return computed_leaf(id, n);
     case Op::sqrt:
       return computed_leaf(id, n);
+    case Op::select: {
+      if (weakened(Weakening::drop_second_alternative)) return pair(n.b);
+      Pair p = merged(pair(n.b), pair(n.c));
+      p.B = MagnitudePolynomial::max(pair(n.b).B, pair(n.c).B);
+      p.underflow = std::max(pair(n.b).underflow, pair(n.c).underflow);
+      return p;
+    }
     case Op::fma:
       return fused(n);
     case Op::certain_nonzero:
@@ -406,8 +414,13 @@ NodeId SafeBounds::make_value(const Node& n) {
 void SafeBounds::run(BoundedPredicate& result) {
   const NodeId count = predicate_.graph.size();
   const auto reporters = outputs_of_nodes(predicate_);
+  const std::vector<bool> has_bound = value_nodes(predicate_);
   for (NodeId id = 0; id < count && !too_many_monomials_; ++id) {
     values_.push_back(make_value(predicate_.graph[id]));
+    if (!has_bound[static_cast<std::size_t>(id)]) {  // decides what is selected: any number will do
+      pairs_.emplace_back();
+      continue;
+    }
     pairs_.push_back(rule(id, predicate_.graph[id], reporters[static_cast<std::size_t>(id)]));
     Pair& p = pairs_.back();
     // 2^d is the most that F of the bounded groups can be.

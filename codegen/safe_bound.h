@@ -11,6 +11,8 @@
 ///     quotient      B = Ba / |c|, k = ka + 1 (c an exact constant)
 ///     fma           B = Ba Bb + Bc, k = max(ka + kb, kc) + 1
 ///     max, min      B = max(Ba, Bb), k = max(ka, kb);   negation, |.|, 2^k: exact
+///     selection     of differences or inputs (`either`): k = 1, B = the maximum of what was selected, a group of its
+///                   own; of other values: as max
 ///
 /// Proof by induction; product: |f^ g^ - f g| <= |f^| |g^ - g| + |g| |f^ - f| <= Bf Bg (Ff (Fg - 1) + Ff - 1), and a
 /// rounding turns F - 1 into F (1 + u) - 1.
@@ -39,9 +41,10 @@
 /// Nb theta^2) + eta, and Na Nb theta^2 <= theta as long as N^2 theta <= 1. So |f^ - f| <= B~ (F (1 + N theta) - 1),
 /// and N theta is of no account: one comparison a maximum instead of a power of the largest, a product and a sum.
 ///
-/// *Groups*: computed differences per coordinate axis; exact vectors used directly per axis; every scalar parameter and
-/// every bounded parameter on its own. The roundings of the maxima (1 + 2u for a difference), of B and of the product
-/// are counted and paid by a factor 1 + 2^-20 (2^-10 in single precision); too many of them are a diagnostic.
+/// *Groups*: computed differences per coordinate axis; what `either` selected per axis; exact vectors used directly per
+/// axis; every scalar parameter and every bounded parameter on its own. The roundings of the maxima (1 + 2u for a
+/// difference), of B and of the product are counted and paid by a factor 1 + 2^-20 (2^-10 in single precision); too
+/// many of them are a diagnostic.
 
 #include "codegen/bounds.h"
 

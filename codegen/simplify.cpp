@@ -109,6 +109,12 @@ class Rewriter {
     return out_.abs(x);
   }
 
+  NodeId select(NodeId condition, NodeId x, NodeId y) {
+    if (x == y) return x;
+    if (is(x, Op::neg) && is(y, Op::neg)) return neg(out_.select(condition, operand(x), operand(y)));
+    return out_.select(condition, x, y);
+  }
+
   NodeId extremum(Op op, NodeId x, NodeId y) { return x == y ? x : out_.binary(op, x, y); }
 
  private:
@@ -211,6 +217,9 @@ dsl::Predicate rebuilt(const dsl::Predicate& predicate, bool rewriting) {
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
         to = result.graph.binary(n.op, at(n.a), at(n.b));
+        break;
+      case Op::select:
+        to = rewrite.select(at(n.a), at(n.b), at(n.c));
         break;
       case Op::fma:
         to = result.graph.fma(at(n.a), at(n.b), at(n.c));

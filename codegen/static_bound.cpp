@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "codegen/alternatives.h"
 #include "codegen/bound_expression.h"
 #include "codegen/error_sum.h"
 #include "codegen/precision.h"
@@ -173,6 +174,10 @@ Unrounded StaticBounds::rule(NodeId id, const Node& n) {
       return {minimum(at(n.a).range, at(n.b).range), std::max(at(n.a).error, at(n.b).error)};
     case Op::max:
       return {maximum(at(n.a).range, at(n.b).range), std::max(at(n.a).error, at(n.b).error)};
+    case Op::select: {
+      const double second = weakened(Weakening::drop_second_alternative) ? 0 : at(n.c).error;
+      return {hull(at(n.b).range, at(n.c).range), std::max(at(n.b).error, second)};
+    }
     case Op::fma: {
       const Unrounded ab = product(n);
       return {ab.range + at(n.c).range, add_up(ab.error, at(n.c).error)};
@@ -230,7 +235,10 @@ Computed StaticBounds::computed(NodeId id, const Node& n) {
 }
 
 void StaticBounds::run(BoundedPredicate& result) {
-  for (NodeId id = 0; id < predicate_.graph.size(); ++id) computed_.push_back(computed(id, predicate_.graph[id]));
+  const std::vector<bool> has_bound = value_nodes(predicate_);
+  for (NodeId id = 0; id < predicate_.graph.size(); ++id) {
+    computed_.push_back(has_bound[static_cast<std::size_t>(id)] ? computed(id, predicate_.graph[id]) : Computed{});
+  }
   if (complained_) return;
   std::vector<double> roundings;
   for (const Computed& c : computed_) roundings.push_back(c.rounding);

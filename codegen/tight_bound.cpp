@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codegen/alternatives.h"
 #include "codegen/nonnegative.h"
 #include "codegen/tight_rules.h"
 
@@ -103,11 +104,15 @@ void TightBounds::fold_if_shared(NodeId id) {
 
 /// The node that computes `n`, behind guards where it has preconditions.
 NodeId TightBounds::make_value(const Node& n) {
-  const auto at = [&](NodeId id) { return id == no_node ? no_node : value(id); };
   if (n.op == Op::div && node(n.b).op != Op::constant) {
     return graph_.binary(Op::div, value(n.a), guarded_divisor(n.b));
   }
   if (n.op == Op::sqrt) return graph_.unary(Op::sqrt, guarded_radicand(n.a));
+  return plain_value(n);
+}
+
+NodeId TightBounds::plain_value(const Node& n) {
+  const auto at = [&](NodeId id) { return id == no_node ? no_node : value(id); };
   return graph_.intern({n.op, at(n.a), at(n.b), at(n.c), n.index, n.value});
 }
 
@@ -147,6 +152,8 @@ double TightBounds::magnitude_limit(const Node& n) const {
     case Op::certain_nonnegative:
     case Op::max_magnitude:
       return std::max(limit(n.a), limit(n.b));
+    case Op::select:
+      return std::max(limit(n.b), limit(n.c));
   }
   return INFINITY;
 }
@@ -170,6 +177,8 @@ bool TightBounds::overflow_shows(const Node& n) const {
     case Op::certain_nonnegative:
     case Op::max_magnitude:
       return shows(n.a) && shows(n.b);
+    case Op::select:
+      return shows(n.b) && shows(n.c);
     case Op::add:
     case Op::sub:
     case Op::mul:
@@ -187,6 +196,7 @@ bool TightBounds::hides_overflow(NodeId id) const {
   if (overflow_shows_[static_cast<std::size_t>(id)]) return false;
   const Node& n = node(id);
   if (n.op == Op::mul_pow2 && n.index > 0 && !(use_ranges_ && limit(id) < format_.largest / 2)) return true;
+  if (n.op == Op::select) return hides_overflow(n.b) || hides_overflow(n.c);
   return (n.op == Op::mul_pow2 || n.op == Op::neg || n.op == Op::abs) && hides_overflow(n.a);
 }
 
@@ -217,7 +227,9 @@ void TightBounds::run(BoundedPredicate& result) {
       for (const NodeId id : output.nodes) ++uses_[static_cast<std::size_t>(id)];
     }
   }
+  const std::vector<bool> has_bound = value_nodes(predicate_);
   for (NodeId id = 0; id < count; ++id) {
+    if (!has_bound[static_cast<std::size_t>(id)]) continue;
     for (const NodeId operand : {node(id).a, node(id).b, node(id).c}) {
       if (operand != no_node) ++uses_[static_cast<std::size_t>(operand)];
     }
@@ -228,6 +240,11 @@ void TightBounds::run(BoundedPredicate& result) {
     const Node& n = node(id);
     if (use_ranges_) limits_.push_back(magnitude_limit(n));
     overflow_shows_.push_back(overflow_shows(n));
+    if (!has_bound[static_cast<std::size_t>(id)]) {  // decides what is selected: any number will do
+      values_.push_back(plain_value(n));
+      errors_.emplace_back();
+      continue;
+    }
     values_.push_back(make_value(n));
     Error e = rule(id, n, reporters[static_cast<std::size_t>(id)]);
     errors_.push_back(std::move(e));

@@ -214,6 +214,33 @@ Error TightBounds::extremum(const Node& n) {
   return e;
 }
 
+/// The bound of the value that is taken. Errors relative to either value are so to the one taken.
+Error TightBounds::selection(NodeId id, const Node& n) {
+  const Error& first = error(n.b);
+  const Error& second = error(n.c);
+  Error e;
+  e.underflow = use_ranges_ ? std::max(first.underflow, second.underflow) : 0;
+  e.slack_used = std::max(first.slack_used, second.slack_used);
+  if (weakened(Weakening::drop_second_alternative)) {
+    e.terms = {{materialise(first), false, 1}};
+    if (e.terms[0].node == no_node) e.terms.clear();
+    return e;
+  }
+  const auto relative_first = relative(n.b);
+  const auto relative_second = relative(n.c);
+  if (relative_first && relative_second) {
+    add_rounding(e, id, std::max(*relative_first, *relative_second));
+    return e;
+  }
+  const auto bound = [&](const Error& of_one) {
+    const NodeId r = materialise(of_one);
+    return r == no_node ? graph_.constant(0) : r;
+  };
+  const NodeId r = bound(first);
+  add_term(e, {r_.selected(value(n.a), r, bound(second)), false, 1});
+  return e;
+}
+
 Error TightBounds::scaling(NodeId id, const Node& n) {
   Error e = scaled(error(n.a), std::max(std::ldexp(1.0, n.index), 0x1p-1074));
   // The term of a relative error becomes the scaled value's own, so that it stays relative: |2^k a| = 2^k |a|.
@@ -243,6 +270,8 @@ Error TightBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
     case Op::min:
     case Op::max:
       return extremum(n);
+    case Op::select:
+      return selection(id, n);
     case Op::div:
       return node(n.b).op == Op::constant ? constant_quotient(id, n) : quotient(id, n);
     case Op::sqrt:

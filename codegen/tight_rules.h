@@ -49,6 +49,7 @@ class TightBounds {
   void add_product_underflow(Error& e, const dsl::Node& n);
   Error fused(dsl::NodeId id, const dsl::Node& n);
   Error extremum(const dsl::Node& n);
+  Error selection(dsl::NodeId id, const dsl::Node& n);
   Error scaling(dsl::NodeId id, const dsl::Node& n);
   Error constant_quotient(dsl::NodeId id, const dsl::Node& n);
   static Error scaled(const Error& error, double factor);
@@ -63,6 +64,7 @@ class TightBounds {
 
   // Building r, and the walk: tight_bound.cpp.
   dsl::NodeId make_value(const dsl::Node& n);
+  dsl::NodeId plain_value(const dsl::Node& n);
   double magnitude_limit(const dsl::Node& n) const;
   std::optional<double> relative(dsl::NodeId id) const;
   std::optional<double> relative_but_for_underflow(dsl::NodeId id) const;

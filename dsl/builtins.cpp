@@ -6,6 +6,7 @@
 #include <array>
 
 #include "dsl/ast.h"
+#include "dsl/either.h"
 #include "dsl/elaborate_expression.h"
 
 namespace tightrope::dsl {
@@ -180,7 +181,47 @@ Value apply_vector(ExpressionElaborator& e, const Expr& call, Arguments a) {
   return {.extents = {}, .elements = {std::move(p)}};
 }
 
-constexpr std::array<Builtin, 17> table = {{
+/// False, with a diagnostic, if alternative `i` of an `either` is certainly not equal to the first.
+bool equal_to_first(ExpressionElaborator& e, const Expr& call, const Value& first, const Value& other, std::size_t i) {
+  for (std::size_t k = 0; k < first.elements.size(); ++k) {
+    for (std::size_t c = 0; c < first.elements[k].coefficients.size(); ++c) {
+      const Comparison found = e.compare(first.elements[k].coefficients[c], other.elements[k].coefficients[c]);
+      if (found == Comparison::equal || found == Comparison::unknown) continue;
+      e.error(e.operand_span(call, i), "this alternative of `either` is not equal to the first",
+              found == Comparison::opposite ? "the signs differ: it is the first one's negative"
+                                            : "alternatives are one polynomial, written in several ways");
+      return false;
+    }
+  }
+  return true;
+}
+
+Value apply_either(ExpressionElaborator& e, const Expr& call, Arguments a) {
+  std::vector<Value> values(a.begin(), a.end());
+  for (const Value& v : values) {
+    if (v.extents != a[0].extents || v.dimension() != a[0].dimension()) {
+      return refuse(e, call, a, "its alternatives are values of one shape");
+    }
+  }
+  elevate_to_common_degree(e.lowering(), values);
+  std::vector<std::vector<Coefficient>> alternatives;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0 && !equal_to_first(e, call, values[0], values[i], i)) return {};
+    std::vector<Coefficient>& coefficients = alternatives.emplace_back();
+    for (const Polynomial& p : values[i].elements) {
+      coefficients.insert(coefficients.end(), p.coefficients.begin(), p.coefficients.end());
+    }
+  }
+  const std::vector<Coefficient> taken = either(e.lowering(), alternatives);
+  Value result = values[0];
+  auto next = taken.begin();
+  for (Polynomial& p : result.elements) {
+    for (Coefficient& c : p.coefficients) c = *next++;
+  }
+  return result;
+}
+
+constexpr std::array<Builtin, 18> table = {{
     {"abs", 1, 1, apply_abs},
     {"bernstein", 1, 1, apply_bernstein},
     {"coefficients", 1, 1, apply_coefficients},
@@ -188,6 +229,7 @@ constexpr std::array<Builtin, 17> table = {{
     {"det", 2, 3, apply_det},
     {"diff", 1, 1, apply_diff},
     {"dot", 2, 2, apply_dot},
+    {"either", 2, -1, apply_either},
     {"elevate", 2, 2, apply_elevate},
     {"fma", 3, 3, apply_fma},
     {"max", 1, -1, apply_extremum},

@@ -11,6 +11,7 @@
 
 #include "dsl/declarations.h"
 #include "dsl/program.h"
+#include "dsl/residues.h"
 #include "dsl/value.h"
 
 namespace tightrope::dsl {
@@ -77,6 +78,7 @@ class ExpressionElaborator {
   SourceSpan literal_span(const Expr& expr) const;
 
   Lowering& lowering() { return low_; }
+  Comparison compare(const Coefficient& a, const Coefficient& b) { return residues_.compare(low_.graph, a, b); }
   const ElaborateOptions& options() const { return options_; }
   Reporter& reporter() { return reporter_; }
 
@@ -104,6 +106,7 @@ class ExpressionElaborator {
   const ElaborateOptions& options_;
   Reporter& reporter_;
   Lowering low_;
+  Residues residues_;               ///< of `low_.graph`, as far as they were needed
   const Module* module_ = nullptr;  ///< that of the expression that is being elaborated
   std::size_t work_ = 0;
   int depth_ = 0;

@@ -15,7 +15,8 @@ namespace tightrope::dsl {
 ///
 /// `Number` needs + - * / and unary minus, construction from double, and found by argument-dependent lookup (or built
 /// in for floating point) abs(x), sqrt(x), mul_pow2(x, int), fma(x, y, z), and either < and == or min(x, y) and
-/// max(x, y). On exact numbers, which have no NaN, the guards (Op::certain_nonzero ..) let everything pass.
+/// max(x, y). On exact numbers, which have no NaN, the guards (Op::certain_nonzero ..) let everything pass. Op::select
+/// takes x.sign(), or not_negative(x), or x >= 0.
 template <class Number, class Operands>
 Number evaluate_node(const Node& n, std::span<const Number> slots, const Operands& at) {
   using std::abs;
@@ -36,6 +37,15 @@ Number evaluate_node(const Node& n, std::span<const Number> slots, const Operand
       return holds ? x : std::numeric_limits<Number>::quiet_NaN();
     } else {
       return x;
+    }
+  };
+  const auto takes_first = [](const Number& condition) -> bool {
+    if constexpr (requires { condition.sign(); }) {
+      return condition.sign() >= 0;
+    } else if constexpr (requires { not_negative(condition); }) {
+      return not_negative(condition);
+    } else {
+      return condition >= Number(0);
     }
   };
   switch (n.op) {
@@ -77,6 +87,8 @@ Number evaluate_node(const Node& n, std::span<const Number> slots, const Operand
       } else {
         return less_or(at(n.a), at(n.b), false);
       }
+    case Op::select:
+      return takes_first(at(n.a)) ? at(n.b) : at(n.c);
     case Op::fma:
       break;
   }

@@ -31,6 +31,7 @@ int operand_count(Op op) {
     case Op::max_magnitude:
       return 2;
     case Op::fma:
+    case Op::select:
       return 3;
   }
   return 0;
@@ -64,6 +65,8 @@ const char* op_name(Op op) {
       return "max";
     case Op::fma:
       return "fma";
+    case Op::select:
+      return "select";
     case Op::max_magnitude:
       return "max_magnitude";
     case Op::certain_nonzero:
@@ -139,6 +142,10 @@ NodeId Graph::mul_pow2(NodeId a, std::int32_t exponent) {
 }
 
 NodeId Graph::fma(NodeId a, NodeId b, NodeId c) { return intern({.op = Op::fma, .a = a, .b = b, .c = c}); }
+
+NodeId Graph::select(NodeId condition, NodeId if_not_negative, NodeId otherwise) {
+  return intern({.op = Op::select, .a = condition, .b = if_not_negative, .c = otherwise});
+}
 
 std::string print(const Graph& graph) {
   std::string text;

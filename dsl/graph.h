@@ -25,9 +25,10 @@ enum class Op : std::uint8_t {
   min,                  ///< exact; NaN if an operand is NaN
   max,                  ///< exact; NaN if an operand is NaN
   fma,                  ///< a * b + c, rounded once
+  select,               ///< b if a >= 0, else (a NaN, too) c: `either`, a choice between equal alternatives (either.h)
   certain_nonzero,      ///< a if |a| > b, else NaN: the divisor of a quotient, b its error bound (bounds only)
   certain_nonnegative,  ///< a if a >= b, else NaN: the radicand of a root, b its error bound (bounds only)
-  max_magnitude,        ///< max(a, b) of non-negative numbers, may ignore a NaN (bounds only; see codegen/safe_bound.h)
+  max_magnitude,  ///< max(a, b) of non-negative numbers, may ignore a NaN in b (bounds and sizes of alternatives only)
 };
 
 struct Node {
@@ -51,6 +52,7 @@ class Graph {
   NodeId binary(Op op, NodeId a, NodeId b);
   NodeId mul_pow2(NodeId a, std::int32_t exponent);
   NodeId fma(NodeId a, NodeId b, NodeId c);
+  NodeId select(NodeId condition, NodeId if_not_negative, NodeId otherwise);
   NodeId add(NodeId a, NodeId b) { return binary(Op::add, a, b); }
   NodeId sub(NodeId a, NodeId b) { return binary(Op::sub, a, b); }
   NodeId mul(NodeId a, NodeId b) { return binary(Op::mul, a, b); }

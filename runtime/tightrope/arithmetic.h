@@ -112,5 +112,12 @@ TIGHTROPE_FUNCTION constexpr Real max_magnitude(Real a, Real b) {
   return b > a ? b : a;
 }
 
+/// `first` if the condition, a difference of sizes, is not negative, else (a NaN, too) `second`: one of two values that
+/// stand in equal expressions.
+template <class Real>
+TIGHTROPE_FUNCTION constexpr Real choose(Real condition, Real first, Real second) {
+  return condition >= 0 ? first : second;
+}
+
 }  // namespace tightrope
 TIGHTROPE_PRECISE_END

@@ -31,6 +31,7 @@ constexpr std::array all_weakenings = {
     Weakening::halve_unit_roundoff,     Weakening::drop_product_of_errors,    Weakening::drop_dividend_error,
     Weakening::drop_divisor_error,      Weakening::drop_divisor_margin,       Weakening::drop_root_rounding,
     Weakening::drop_radicand_error,     Weakening::drop_fma_rounding,         Weakening::drop_guards,
+    Weakening::drop_second_alternative,
 };
 
 struct Case {
@@ -66,6 +67,7 @@ std::vector<Case> cases(BoundMode mode) {
   add(Weakening::drop_radicand_error, "", "bounded scalar a", "sqrt(a)");
   add(Weakening::drop_guards, "_divisor", "scalar a, bounded scalar b", "a / b");
   add(Weakening::drop_guards, "_radicand", "bounded scalar a", "sqrt(a)");
+  add(Weakening::drop_second_alternative, "", "scalar a, b", "either(a + b, (rounded(3 * a) + rounded(3 * b)) / 3)");
   if (mode == BoundMode::safe) return result;  // (B, k) has no such terms, or they do not show
   add(Weakening::drop_dividend_error, "_relative", "scalar a, b, c", "(a - b) / c");
   add(Weakening::drop_divisor_error, "_relative", "scalar a, b, c", "a / (b - c)");

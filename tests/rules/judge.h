@@ -210,6 +210,8 @@ class Judge {
         return max(at(n.a), at(n.b));
       case Op::fma:
         return fma(at(n.a), at(n.b), at(n.c));
+      case Op::select:  // conditions are exact operands: an unknown sign is that of 0
+        return sign(at(n.a)) != -1 ? at(n.b) : at(n.c);
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
       case Op::max_magnitude:

@@ -211,6 +211,7 @@ class RandomCheck {
       case dsl::Op::certain_nonzero:
       case dsl::Op::certain_nonnegative:
       case dsl::Op::max_magnitude:
+      case dsl::Op::select:
         break;
     }
     all([&](std::size_t k) {

@@ -111,6 +111,29 @@ std::vector<RuleCase> extrema() {
   return cases;
 }
 
+/// Operand 0 is the condition: finite and exact, so that what is selected is the same in exact arithmetic.
+RuleCase selection(std::string name, std::vector<Operand> operands, std::function<NodeId(Graph&, Operands)> build) {
+  operands.front().range = 1;
+  RuleCase rule = composed(std::move(name), std::move(operands), std::move(build), 4);
+  rule.forgets_nans = true;
+  return rule;
+}
+
+std::vector<RuleCase> selections() {
+  const auto of_two = [](Graph& g, Operands x) { return g.select(x[0], x[1], x[2]); };
+  return {
+      selection("c >= 0 ? a : b, exact", {exact, exact, exact}, of_two),
+      selection("c >= 0 ? a : b, bounded", {exact, bounded, bounded}, of_two),
+      selection("c >= 0 ? a : b, b bounded", {exact, exact, bounded}, of_two),
+      selection("c >= 0 ? a - b : b", {exact, exact, exact},
+                [](Graph& g, Operands x) { return g.select(x[0], difference(g, x, 1), x[2]); }),
+      selection("c >= 0 ? a : 3 b, exact", {exact, exact, exact},
+                [](Graph& g, Operands x) { return g.select(x[0], x[1], g.mul(g.constant(3), x[2])); }),
+      selection("(c >= 0 ? a - b : a) b, exact", {exact, exact, exact},
+                [](Graph& g, Operands x) { return g.mul(g.select(x[0], difference(g, x, 1), x[1]), x[2]); }),
+  };
+}
+
 std::vector<RuleCase> quotients_roots_fma() {
   const auto root_of = [](std::string name, Operand a) {
     RuleCase rule = unary(std::move(name), a, [](Graph& g, NodeId x) { return g.unary(Op::sqrt, x); });
@@ -186,7 +209,7 @@ std::vector<RuleCase> compositions() {
 /// The same rules where every operand has a declared range, so that underflow is a compile-time floor (lemma C).
 std::vector<RuleCase> ranged() {
   std::vector<RuleCase> cases;
-  for (const auto& group : {sums(), products(), extrema(), quotients_roots_fma(), compositions()}) {
+  for (const auto& group : {sums(), products(), extrema(), selections(), quotients_roots_fma(), compositions()}) {
     for (const RuleCase& rule : group) {
       if (rule.operands.size() > 3) continue;
       cases.push_back(rule);
@@ -207,8 +230,8 @@ std::vector<RuleCase> ranged() {
 const std::vector<RuleCase>& rule_cases() {
   static const std::vector<RuleCase> all = [] {
     std::vector<RuleCase> cases;
-    for (const auto& group :
-         {sums(), products(), constants_and_scalings(), extrema(), quotients_roots_fma(), compositions(), ranged()}) {
+    for (const auto& group : {sums(), products(), constants_and_scalings(), extrema(), selections(),
+                              quotients_roots_fma(), compositions(), ranged()}) {
       cases.insert(cases.end(), group.begin(), group.end());
     }
     return cases;

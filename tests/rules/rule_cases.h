@@ -24,6 +24,8 @@ struct RuleCase {
   bool turns_at_zero = false;
   /// An infinite operand may leave no trace, as in min(1, infinity) = 1.
   bool forgets_infinities = false;
+  /// A NaN, too: the value that is not selected.
+  bool forgets_nans = false;
   /// m of lemmas in codegen (B in tight_bound.h, roots): even the ideal rule holds only up to m factors 1 + u.
   int lemma_factors = 0;
 };

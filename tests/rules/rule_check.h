@@ -261,6 +261,7 @@ class RuleCheck {
   }
 
   bool infinity_is_forgotten() const {
+    if (rule_.forgets_nans) return true;
     return rule_.forgets_infinities && std::none_of(operands_.begin(), operands_.end(), [](const Interval& x) {
              return std::isnan(x.centre) || !std::isfinite(x.radius);
            });

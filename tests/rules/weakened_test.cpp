@@ -71,6 +71,7 @@ const std::map<std::string, std::string>& reserves() {
       {"safe abs drop_underflow", "exact; the term is for the evaluation of B"},
       {"safe min drop_underflow", "exact; the term is for the evaluation of B"},
       {"safe max drop_underflow", "exact; the term is for the evaluation of B"},
+      {"safe select drop_underflow", "exact; the term is for the evaluation of B"},
   };
   return all;
 }

@@ -117,4 +117,30 @@ std::string check_property(const Reference& reference, std::span<const Code<Real
   return "";
 }
 
+/// The alternatives of every `either` are equal: outputs are exactly the same whichever are taken.
+template <class Real>
+std::string check_alternatives(const Reference& reference, std::span<const Code<Real>> /*codes*/) {
+  Random random(detail::seed(reference, "alternatives"));
+  Inputs<Real> inputs(reference, random);
+  for (int n = 0; n < reference.cases; ++n) {
+    const Case<Real> c = inputs.make(n % 2 == 0 ? Family::uniform : Family::lattice);
+    const std::uint64_t seed = n == 0 ? 0 : static_cast<std::uint64_t>(random.between(1, 1 << 30));
+    const auto takes_first = [&](int line) {
+      return seed != 0 && ((static_cast<std::uint64_t>(line) + seed) * 0x9E3779B97F4A7C15U) >> 63 != 0;
+    };
+    const std::vector<Exact> first = evaluate_exact(reference, c.exact, [](int) { return true; });
+    const std::vector<Exact> other = evaluate_exact(reference, c.exact, takes_first);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      if (!first[i].finite() || !other[i].finite()) continue;
+      const Enclosure difference = first[i].value - other[i].value;
+      const bool differ = difference.lower().sign() > 0 || difference.upper().sign() < 0;
+      if (!differ) continue;
+      return std::string(reference.name) + ", " + detail::output_name(reference, static_cast<int>(i)) +
+             ": the alternatives of an `either` are not equal: " + detail::hex(first[i].value.to_double()) + " and " +
+             detail::hex(other[i].value.to_double()) + "\n" + detail::describe_inputs(reference, c);
+    }
+  }
+  return "";
+}
+
 }  // namespace tightrope::testing

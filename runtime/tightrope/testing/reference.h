@@ -19,7 +19,23 @@ namespace tightrope::testing {
 #define TIGHTROPE_MAY_DIVIDE_BY_ZERO
 #endif
 
-enum class Op : unsigned char { input, constant, add, sub, neg, mul, scale, div, sqrt, abs, min, max, fma };
+enum class Op : unsigned char {
+  input,
+  constant,
+  add,
+  sub,
+  neg,
+  mul,
+  scale,
+  div,
+  sqrt,
+  abs,
+  min,
+  max,
+  fma,
+  larger,
+  select
+};
 
 /// One line of a table; `a`, `b` and `c` are lines above it, or the input slot, or the power of two of `scale`.
 struct Operation {
@@ -43,6 +59,9 @@ constexpr Operation abs(int a) { return {Op::abs, a, 0, 0}; }
 constexpr Operation min(int a, int b) { return {Op::min, a, b, 0}; }
 constexpr Operation max(int a, int b) { return {Op::max, a, b, 0}; }
 constexpr Operation fma(int a, int b, int c) { return {Op::fma, a, b, 0, c}; }  ///< a * b + c
+constexpr Operation larger(int a, int b) { return {Op::larger, a, b, 0}; }      ///< max, may ignore a NaN in b
+/// b if a >= 0, else c: of alternatives that are equal in the end (`either`).
+constexpr Operation select(int a, int b, int c) { return {Op::select, a, b, 0, c}; }
 
 /// A parameter; its slots follow each other: elements outermost, then time, then component.
 struct Parameter {
@@ -140,7 +159,7 @@ inline Exact smaller(const Exact& a, const Exact& b, bool smaller_one) {
 }
 
 inline Exact apply(const Operation& o, const Exact& a, const Exact& b) {
-  if (o.op == Op::min || o.op == Op::max) return smaller(a, b, o.op == Op::min);
+  if (o.op == Op::min || o.op == Op::max || o.op == Op::larger) return smaller(a, b, o.op == Op::min);
   if (o.op == Op::neg) return negated(a);
   if (o.op == Op::abs && a.kind == Exact::Kind::negative_infinity) return negated(a);
   if (o.op == Op::abs && !a.finite()) return a;
@@ -169,6 +188,8 @@ inline Exact apply(const Operation& o, const Exact& a, const Exact& b) {
     case Op::min:
     case Op::max:
     case Op::fma:
+    case Op::larger:
+    case Op::select:
       break;
   }
   return Exact::undefined();
@@ -176,7 +197,7 @@ inline Exact apply(const Operation& o, const Exact& a, const Exact& b) {
 
 constexpr bool has_second_operand(Op op) {
   return op == Op::add || op == Op::sub || op == Op::mul || op == Op::div || op == Op::min || op == Op::max ||
-         op == Op::fma;
+         op == Op::fma || op == Op::larger || op == Op::select;
 }
 
 }  // namespace detail
@@ -191,8 +212,18 @@ inline bool has_preconditions(const Reference& reference) {
   return false;
 }
 
-/// The exact outputs for the exact inputs `slots`.
-inline std::vector<Exact> evaluate_exact(const Reference& reference, std::span<const Exact> slots) {
+inline bool has_alternatives(const Reference& reference) {
+  for (const Operation& o : reference.operations) {
+    if (o.op == Op::select) return true;
+  }
+  return false;
+}
+
+/// The exact outputs for the exact inputs `slots`. Of alternatives the one that `takes_first`, which gets the line of a
+/// condition and is to answer the same for the same line, says.
+template <class TakesFirst>
+std::vector<Exact> evaluate_exact(const Reference& reference, std::span<const Exact> slots,
+                                  const TakesFirst& takes_first) {
   std::vector<Exact> v;
   v.reserve(reference.operations.size());
   for (const Operation& o : reference.operations) {
@@ -204,12 +235,25 @@ inline std::vector<Exact> evaluate_exact(const Reference& reference, std::span<c
     } else if (o.op == Op::fma) {
       const Exact product = detail::apply(mul(o.a, o.b), v[a], v[static_cast<std::size_t>(o.b)]);
       v.push_back(detail::apply(add(o.a, o.c), product, v[static_cast<std::size_t>(o.c)]));
+    } else if (o.op == Op::select) {
+      v.push_back(v[static_cast<std::size_t>(takes_first(o.a) ? o.b : o.c)]);
     } else {
       v.push_back(detail::apply(o, v[a], v[detail::has_second_operand(o.op) ? static_cast<std::size_t>(o.b) : a]));
     }
   }
   std::vector<Exact> results;
   for (const int r : reference.results) results.push_back(v[static_cast<std::size_t>(r)]);
+  return results;
+}
+
+/// The same whichever alternatives are taken; unknown where they do not agree on there being a number.
+inline std::vector<Exact> evaluate_exact(const Reference& reference, std::span<const Exact> slots) {
+  std::vector<Exact> results = evaluate_exact(reference, slots, [](int) { return true; });
+  if (!has_alternatives(reference)) return results;
+  const std::vector<Exact> last = evaluate_exact(reference, slots, [](int) { return false; });
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (results[i].kind != last[i].kind) results[i] = {Exact::Kind::unknown, {}};
+  }
   return results;
 }
 
@@ -257,6 +301,12 @@ TIGHTROPE_MAY_DIVIDE_BY_ZERO std::vector<Real> evaluate_plain(const Reference& r
         break;
       case Op::max:
         v.push_back(maximum(v[a], v[b]));
+        break;
+      case Op::larger:
+        v.push_back(max_magnitude(v[a], v[b]));
+        break;
+      case Op::select:
+        v.push_back(choose(v[a], v[b], v[static_cast<std::size_t>(o.c)]));
         break;
       case Op::fma:
         v.push_back(std::fma(v[a], v[b], v[static_cast<std::size_t>(o.c)]));

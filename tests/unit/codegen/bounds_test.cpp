@@ -67,6 +67,24 @@ TEST(TightBound, EveryDroppedTermIsNoticed) {
   }
 }
 
+TEST(Bounds, HoldForWhateverEitherSelects) {
+  for (const BoundMode mode : {BoundMode::tight, BoundMode::safe, BoundMode::interval, BoundMode::fixed}) {
+    for (const Inputs inputs : {Inputs::exact, Inputs::mixed}) {
+      for (const Ranges ranges : {Ranges::none, Ranges::all}) {
+        if (mode == BoundMode::fixed && ranges == Ranges::none) continue;
+        Shape shape{inputs, ranges, 12};
+        shape.selections = true;
+        const Tally tally = campaign<double>(mode, shape, 150, 40);
+        EXPECT_EQ(tally.violations, 0) << name(mode);
+        EXPECT_EQ(tally.wrong_signs, 0) << name(mode);
+        EXPECT_GT(tally.definite, tally.checked / 20) << name(mode);
+        EXPECT_GT(campaign<double>(mode, shape, 300, 60, Weakening::drop_second_alternative).violations, 0)
+            << name(mode);
+      }
+    }
+  }
+}
+
 TEST(TightBound, UnderflowFloorOfRangesIsNeeded) {
   const Shape shape{Inputs::exact, Ranges::all, 8, true};
   EXPECT_GT(campaign<double>(BoundMode::tight, shape, 300, 60, Weakening::drop_underflow).violations, 0);

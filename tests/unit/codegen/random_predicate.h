@@ -29,6 +29,7 @@ struct Shape {
   bool polynomial_only = false;  ///< no max, min, abs
   bool uneven_scales = false;    ///< inputs of one sample differ by hundreds of binades, constants by dozens
   bool quotients = false;        ///< also quotients by run-time values, roots and fused products
+  bool selections = false;       ///< also selections, by the sign of the difference of two exact inputs
 };
 
 /// A predicate over six scalars with a random graph; the last few nodes are outputs.
@@ -58,7 +59,15 @@ inline dsl::Predicate random_predicate(std::mt19937_64& random, const Shape& sha
     const NodeId a = operand();
     const NodeId b = operand();
     NodeId made = a;
-    switch (pick(shape.quotients ? 21 : shape.polynomial_only ? 10 : 13)) {
+    const int kinds = shape.quotients ? 21 : shape.polynomial_only ? 10 : 13;
+    const int kind = pick(kinds + (shape.selections ? 3 : 0));
+    if (kind >= kinds) {  // inputs 0, 2, 4 are exact unless all are bounded; their difference has its exact sign
+      if (shape.inputs == Inputs::bounded) continue;
+      const NodeId condition = p.graph.sub(p.graph.input(2 * pick(3)), p.graph.input(2 * pick(3)));
+      values.push_back(p.graph.select(condition, a, b));
+      continue;
+    }
+    switch (kind) {
       case 0:
       case 1:
       case 2:

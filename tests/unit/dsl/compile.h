@@ -61,6 +61,7 @@ struct Exact {
   }
   Exact operator-() const { return {mpq_class(-value)}; }
   friend bool operator<(const Exact& a, const Exact& b) { return a.value < b.value; }
+  int sign() const { return sgn(value); }
   friend bool operator>(const Exact& a, const Exact& b) { return a.value > b.value; }
   friend bool operator==(const Exact& a, const Exact& b) { return a.value == b.value; }
   friend Exact abs(const Exact& a) { return {mpq_class(::abs(a.value))}; }

@@ -303,6 +303,7 @@ Graph mutated(const Graph& graph, NodeId victim) {
         case Op::min:
         case Op::max:
         case Op::fma:
+        case Op::select:
         case Op::max_magnitude:
         case Op::certain_nonzero:
         case Op::certain_nonnegative:
