@@ -95,10 +95,17 @@ int InputGroups::enter(InputGroup wanted, GroupMember member, double range) {
     wanted.displacements = false;
     wanted.name = "b";
   }
+  if (wanted.kind == InputGroup::Kind::selected) {
+    auto vector = std::find(selected_vectors_.begin(), selected_vectors_.end(), wanted.inputs);
+    if (vector == selected_vectors_.end()) vector = selected_vectors_.insert(vector, wanted.inputs);
+    wanted.name.insert(1, std::to_string(vector - selected_vectors_.begin() + 1));
+  } else {
+    wanted.inputs.clear();
+  }
   if (wanted.list >= 0) wanted.name += "_group_" + std::to_string(wanted.list + 1);
   auto group = std::find_if(groups_.begin(), groups_.end(), [&](const InputGroup& g) {
     return g.kind == wanted.kind && g.index == wanted.index && g.list == wanted.list &&
-           g.displacements == wanted.displacements;
+           g.displacements == wanted.displacements && g.inputs == wanted.inputs;
   });
   if (group == groups_.end()) group = groups_.insert(groups_.end(), std::move(wanted));
   group->members.push_back(member);
@@ -117,6 +124,7 @@ InputGroups::Leaf InputGroups::input(const Node& n) {
     return {std::move(group), range_of(n)};
   }
   group.list = list_of(slot.parameter);
+  group.inputs = {slot.parameter, slot.element};
   const bool scalar = p.dimension == 1;
   group.kind = scalar ? InputGroup::Kind::scalar : InputGroup::Kind::vectors;
   group.index = !scalar ? slot.component : group.list >= 0 ? -1 : slot.parameter;  // a list's scalars are one group
@@ -136,6 +144,7 @@ InputGroups::Leaf InputGroups::difference(const Node& n) const {
   group.list = list_of(sx.parameter) == list_of(sy.parameter) ? list_of(sx.parameter) : -1;
   group.displacements = predicate_.grouping.displacements && sx.parameter == sy.parameter && sx.element == sy.element &&
                         sx.component == sy.component && sx.time != sy.time;
+  group.inputs = {sx.parameter, sx.element, sy.parameter, sy.element};
   group.name = group.displacements ? "s" : "d";
   if (one_axis) group.name += std::string("_") + axis_names[sx.component];
   return {std::move(group), (range_of(x) + range_of(y)) * (1 + 0x1p-10)};
@@ -147,6 +156,8 @@ InputGroups::Leaf InputGroups::selection(const Leaf& first, const Leaf& second) 
   group.kind = InputGroup::Kind::selected;
   group.index = axis(first.group) == axis(second.group) ? axis(first.group) : -1;
   group.list = first.group.list == second.group.list ? first.group.list : -1;
+  group.inputs = first.group.inputs;
+  group.inputs.insert(group.inputs.end(), second.group.inputs.begin(), second.group.inputs.end());
   group.displacements = first.group.displacements && second.group.displacements;
   group.name = group.index >= 0 ? std::string("c_") + axis_names[group.index] : "c";
   return {std::move(group), std::max(first.range, second.range)};

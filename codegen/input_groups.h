@@ -21,6 +21,7 @@ struct InputGroup {
                   ///< parameter, or a number beyond
   int list = -1;  ///< of `group (a, b), (c)`: the list that all its inputs are in, or -1
   bool displacements = false;  ///< of `group displacements`: differences of one input at two times
+  std::vector<int> inputs;     ///< selected: the parameters (and elements) that the vectors to select from are made of
   std::string name;            ///< for people: "d_x"
   std::vector<GroupMember> members;
   double range = 0;  ///< no exact member exceeds it, by the declared ranges; else infinity
@@ -38,8 +39,8 @@ class InputGroups {
   int size() const { return static_cast<int>(groups_.size()); }
   const InputGroup& operator[](int group) const { return groups_[static_cast<std::size_t>(group)]; }
   /// The group of a node if it is a leaf, else -1. Leaves: sums and differences of two exact inputs, and inputs that
-  /// are used in any other way; selections among these (and their negatives), and then the maximum of the group is that
-  /// of the values taken, and those not taken need not be in any.
+  /// are used in any other way; selections among these (and their negatives): each selected vector has groups of its
+  /// own, with the maximum of the values taken, and those not taken need not be in any.
   int of(dsl::NodeId id) const { return leaf_groups_[static_cast<std::size_t>(id)]; }
   std::vector<std::string> names() const;
   std::vector<double> ranges() const;
@@ -83,7 +84,8 @@ class InputGroups {
   std::vector<int> leaf_groups_;
   dsl::NodeId overall_maximum_ = dsl::no_node;
   int groups_in_overall_maximum_ = 0;
-  int computed_ = 0;  ///< groups made by enter_computed
+  std::vector<std::vector<int>> selected_vectors_;  ///< InputGroup::inputs of the groups that there are
+  int computed_ = 0;                                ///< groups made by enter_computed
 };
 
 }  // namespace tightrope::codegen
