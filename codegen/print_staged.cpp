@@ -30,7 +30,7 @@ bool has_telling_ranges(const dsl::Predicate& predicate) {
 bool swallows_infinities(const dsl::Predicate& predicate) {
   for (dsl::NodeId id = 0; id < predicate.graph.size(); ++id) {
     const Op op = predicate.graph[id].op;
-    if (op == Op::div || op == Op::min || op == Op::max) return true;
+    if (op == Op::div || op == Op::min || op == Op::max || op == Op::select) return true;
   }
   return false;
 }
