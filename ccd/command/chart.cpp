@@ -60,9 +60,11 @@ std::vector<const EvaluationRow*> front_of(std::span<const EvaluationRow* const>
   return front;
 }
 
+std::string front_name(Precision precision) { return fmt::format("Pareto front, {}", name(precision)); }
+
 /// Stairs through the members of the front: above and to the right of them everything is beaten.
 Series front_line(const std::vector<const EvaluationRow*>& front, Precision precision) {
-  Series series{.name = fmt::format("Pareto front, {}", name(precision)),
+  Series series{.name = front_name(precision),
                 .style = {.colour = front_colour},
                 .line = precision == Precision::in_double ? Line::solid : Line::dashed,
                 .markers = false,
@@ -128,7 +130,17 @@ Panel panel_of(std::span<const EvaluationRow* const> rows, std::span<const Preci
   return panel;
 }
 
-std::vector<charts::LegendEntry> legend_of(std::span<const Precision> precisions, bool missed) {
+/// Whether some panel has a front in this precision: without conservative methods there is none.
+bool has_front(const std::vector<Panel>& panels, Precision precision) {
+  return std::any_of(panels.begin(), panels.end(), [&](const Panel& panel) {
+    return std::any_of(panel.series.begin(), panel.series.end(), [&](const Series& series) {
+      return series.name == front_name(precision) && !series.data.empty();
+    });
+  });
+}
+
+std::vector<charts::LegendEntry> legend_of(const std::vector<Panel>& panels, std::span<const Precision> precisions,
+                                           bool missed) {
   std::vector<charts::LegendEntry> legend;
   for (const Precision precision : precisions) {
     const bool in_double = precision == Precision::in_double;
@@ -138,6 +150,7 @@ std::vector<charts::LegendEntry> legend_of(std::span<const Precision> precisions
       for (Style& style : examples) style.filled = in_double;
       legend.push_back({.text = fmt::format("computed in {}", name(precision)), .markers = examples});
     }
+    if (!has_front(panels, precision)) continue;
     legend.push_back({.text = "Pareto front of the conservative methods" + type,
                       .style = {.colour = front_colour},
                       .line = in_double ? Line::solid : Line::dashed,
@@ -151,9 +164,8 @@ std::string caption_of(bool missed) {
   std::string text =
       "Right is slower, up is more false alarms. Time: one thread, reading not included, the median of several passes. "
       "False-positive rate: queries answered true without contact, as a part of all queries without contact; in the "
-      "band 0 there is none. Conservative methods promise never to miss a contact; those with a ring are on the front: "
-      "no "
-      "other one is both faster and more accurate. ";
+      "band 0 there is none. Conservative methods promise never to miss a contact; no other one of them is both faster "
+      "and more accurate than one with a ring. ";
   if (missed) {
     text += "A method with a red cross missed as many contacts as it says there, and is no candidate for the front. ";
   }
@@ -195,7 +207,7 @@ charts::Chart evaluation_chart(std::span<const EvaluationRow> rows, const std::s
   chart.caption = caption_of(missed);
   chart.x = {.title = "time per query, nanoseconds"};
   chart.y = {.title = "false-positive rate", .zero_band = true, .least = 1 / static_cast<double>(most)};
-  chart.legend = legend_of(precisions, missed);
+  chart.legend = legend_of(chart.panels, precisions, missed);
   return chart;
 }
 

@@ -98,7 +98,8 @@ class Placer {
     const double dislike = preference[static_cast<std::size_t>(direction * 16 / directions)];
     Candidate candidate{.place = {.placed = true, .box = box, .has_leader = gap >= leader_from_gap, .leader = {}},
                         .cost = gap + dislike / 2};
-    for (const Segment& line : lines_) candidate.cost += meets(line, box) ? upon_line_cost : 0;
+    const Box around{box.left - 2, box.top, box.right + 2, box.bottom};  // letters need room beside upright lines
+    for (const Segment& line : lines_) candidate.cost += meets(line, around) ? upon_line_cost : 0;
     if (candidate.place.has_leader) {
       candidate.place.leader = leader_of(request, box);
       candidate.cost += leader_cost;

@@ -82,6 +82,7 @@ class Page {
     place_legend();
     place_panels();
     place_lines(chart_.caption, font_size, faint_colour);
+    if (result_.labels_left_out > 0) place_lines("Labels are missing for lack of room.", font_size, alarm_colour);
     result_.height = std::ceil(y_ + margin);
     return std::move(result_);
   }

@@ -54,9 +54,13 @@ std::string ring_point() {
   return fmt::format("pt 6 ps {} lw 1.2 lc rgb \"{}\"", cross_radius / 4.5, colour_text(faint_colour));
 }
 
+/// gnuplot's SVG goes on with the dashes of the line before where colour and width are the same: widths differ a
+/// little.
 std::string stroke(const Style& style, Line line) {
-  const char* dashes = line == Line::dashed ? "(6,4)" : line == Line::dotted ? "(2,3)" : "1";
-  return fmt::format("lw 2 dt {} lc rgb \"{}\"", dashes, colour_text(style.colour));
+  const char* look = line == Line::dashed   ? "lw 2.02 dt (6,4)"
+                     : line == Line::dotted ? "lw 2.01 dt (2,3)"
+                                            : "lw 2 dt 1";
+  return fmt::format("{} lc rgb \"{}\"", look, colour_text(style.colour));
 }
 
 class Script {

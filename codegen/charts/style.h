@@ -26,7 +26,7 @@ inline constexpr std::uint32_t text_colour = 0x000000;
 inline constexpr std::uint32_t faint_colour = 0x707070;
 inline constexpr double marker_radius = 5.5;  ///< pixels
 inline constexpr double marker_reach = 7.8;   ///< of the corners of a diamond
-inline constexpr double cross_radius = 9;
+inline constexpr double cross_radius = 10;    ///< of rings, too
 
 std::string colour_text(std::uint32_t colour);  ///< "#0072B2"
 

@@ -26,7 +26,7 @@ std::optional<Format> format_of(const std::string& file) {
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension == ".svg") return Format::svg;
   if (extension == ".png") return Format::png;
-  if (extension == ".html" || extension == ".htm") return Format::html;
+  if (extension == ".html") return Format::html;
   return std::nullopt;
 }
 
@@ -60,7 +60,8 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
   }
 }
 
-/// gnuplot's SVG with the chart's own title and description, which screen readers read, and with bolder markers.
+/// gnuplot's SVG with the chart's own title and description, which screen readers read, and with markers drawn
+/// bolder.
 std::string finished(std::string svg, const Chart& chart) {
   const auto fill = [&](const std::string& element, const std::string& text) {
     const std::string open = "<" + element + ">";
@@ -71,7 +72,9 @@ std::string finished(std::string svg, const Chart& chart) {
   };
   fill("title", chart.title);
   fill("desc", chart.subtitle + ". " + chart.caption);
+  // Thin strokes are as thick as the marker is large; rings, which are large, stay as they are.
   replace_all(svg, "stroke-width='0.222'", "stroke-width='0.32'");
+  replace_all(svg, "<circle id='gpPt5' stroke-width='0.32'", "<circle id='gpPt5' stroke-width='0.16'");
   return svg;
 }
 

@@ -83,6 +83,13 @@ TEST(EvaluationChart, AMethodThatMissesIsCrossedOutAndNotOnTheFrontWhateverItPro
   EXPECT_TRUE(marker(chart.panels[0], Method::tight, Precision::in_double).ring);
 }
 
+TEST(EvaluationChart, WithoutConservativeMethodsThereIsNoFront) {
+  const std::vector<EvaluationRow> rows = {row_of(Method::bsc_float, Kind::edge_edge, Precision::in_double, 10, 0, 3)};
+  const Chart chart = evaluation_chart(rows, "");
+  ASSERT_EQ(chart.legend.size(), 1U);
+  EXPECT_TRUE(chart.legend[0].alarm);
+}
+
 TEST(EvaluationChart, StairsJoinTheFrontAndNothingElse) {
   const std::vector<EvaluationRow> rows = {
       row_of(Method::bsc_float, Kind::edge_edge, Precision::in_double, 10, 0, 3),
