@@ -81,6 +81,22 @@ TEST(WriteChart, SvgKeepsItsTextsAsTextsThatDoNotOverlap) {
   }
 }
 
+/// Where this fails, the picture is older than the methods: docs/charts.md has the command that draws it.
+TEST(WriteChart, ThePicturesOfTheDocumentationAreOfTodaysMethodsAndLegible) {
+  const std::filesystem::path docs = std::filesystem::path(TIGHTROPE_SOURCE_DIR) / "docs";
+  const std::string speed = text_of(docs / "speed-accuracy.svg");
+  for (const ccd::MethodInfo& method : ccd::methods()) {
+    const std::string name(method.name);
+    EXPECT_EQ(count(speed, "<title>" + name + ", double</title>"), 2U) << name;
+    EXPECT_EQ(count(speed, "<title>" + name + ", double: wrong</title>"), method.conservative ? 0U : 2U) << name;
+  }
+  for (const std::string& svg : {speed, text_of(docs / "bounds.svg")}) {
+    EXPECT_EQ(xml_error(svg), "");
+    EXPECT_GT(texts_in(svg).size(), 20U);
+    EXPECT_EQ(overlapping(texts_in(svg)), "");
+  }
+}
+
 TEST(WriteChart, RedCrossesAreThereIfAndOnlyIfThereAreMisses) {
   const ScratchDirectory scratch;
   auto rows = ccd::random_rows(1, {ccd::Precision::in_double});
