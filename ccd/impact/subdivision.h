@@ -90,7 +90,7 @@ class Subdivision {
     Z z;
     double lo, width;
   };
-  static constexpr int most_visits = 64;
+  static constexpr int most_visits = 12;  ///< more decide little that exact arithmetic would not decide at once
 
   /// Decides a part of the step if it can; else sets whether halving it may help.
   Finding look(const Node& node) {
