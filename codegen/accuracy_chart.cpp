@@ -270,10 +270,10 @@ std::string caption_of(const Chart& chart, const AccuracyRequest& request, bool 
       {"static", "static is one constant for the whole ranges. "},
       {"Gappa", "Gappa: what it finds by itself for the whole ranges. "},
   };
-  for (const auto& [series, sentence] : sentences) {
-    const bool there =
-        std::any_of(chart.legend.begin(), chart.legend.end(), [&](const auto& entry) { return entry.text == series; });
-    if (there) text += sentence;
+  for (const auto& sentence : sentences) {
+    const bool there = std::any_of(chart.legend.begin(), chart.legend.end(),
+                                   [&](const charts::LegendEntry& entry) { return entry.text == sentence.first; });
+    if (there) text += sentence.second;
   }
   if (!all) text += "Of each predicate the output with the greatest bound. ";
   return text;
