@@ -11,9 +11,10 @@
 /// the step is free of contact where a quadratic's Bernstein coefficients have one sign, or an axis separates at both
 /// ends.
 ///
-/// In the plane, where m has opposite signs at the ends of a part, it has exactly one root there, m being quadratic; a
-/// bracket of the root on which an axis separates is no contact, and one on which p is strictly between a and b in a
-/// coordinate is a certain one: at the root the three are on one line.
+/// Where a coordinate of m has opposite signs at the ends of a part, it has exactly one root there, being quadratic:
+/// all is decided by a bracket of that root. No contact: there another coordinate of m has one sign, or an axis
+/// separates. In the plane, where m has no other coordinate, a certain contact: there p is strictly between a and b in
+/// a coordinate, since at the root the three are on one line.
 ///
 /// Who includes this includes the generated headers of his bound mode (vertex_edge.pred) and of SafeBound first.
 
@@ -21,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "ccd/geometry.h"
@@ -46,7 +48,6 @@ enum class Answer { never, touches, open };
 struct Finding {
   Answer answer;
   double from = 0, to = 0;
-  double split = 0.5;  ///< open: where to divide the part
 };
 
 /// Is p beyond both ends of the edge in a coordinate, at t = 0 and at t = 1? Then at every time between. The signs of
@@ -82,11 +83,11 @@ class Search {
     parts[count++] = {0, t_max, 0};
     for (int nodes = 0; count > 0; ++nodes) {
       const Part part = parts[--count];
-      const Finding finding = settle(part);
-      if (finding.answer == Answer::touches) return finding;
-      if (finding.answer == Answer::never) continue;
-      if (part.depth == most_halvings || nodes == most_nodes) return {Answer::open};
-      const double middle = part.l + (part.r - part.l) * finding.split;
+      double split = 0.5;
+      const std::optional<Finding> finding = settled(part, split);
+      if (finding && finding->answer == Answer::never) continue;
+      if (finding || part.depth == most_halvings || nodes == most_nodes) return finding.value_or(Finding{Answer::open});
+      const double middle = part.l + (part.r - part.l) * split;
       parts[count++] = {middle, part.r, part.depth + 1};
       parts[count++] = {part.l, middle, part.depth + 1};
     }
@@ -94,8 +95,8 @@ class Search {
   }
 
  private:
-  static constexpr std::size_t most_halvings = Dimension == 2 ? 16 : 40;
-  static constexpr int most_nodes = Dimension == 2 ? 32 : 96;
+  static constexpr std::size_t most_halvings = 16;
+  static constexpr int most_nodes = 32;
 
   struct Part {
     double l, r;
@@ -169,28 +170,41 @@ class Search {
     return false;
   }
 
-  /// What is certain about a part of the step.
-  Finding settle(const Part& part) const {
-    Quadratic first;
-    for (std::size_t i = 0; i < moments_.size(); ++i) {
-      const Quadratic m = restricted(moments_[i], part.l, part.r);
-      if (hull(m) != Sign::uncertain) return {Answer::never};
-      if (i == 0) first = m;
+  /// What is certain about a part of the step; none: divide it at the fraction `split`.
+  std::optional<Finding> settled(const Part& part, double& split) const {
+    Moments m;
+    for (std::size_t i = 0; i < m.size(); ++i) {
+      m[i] = restricted(moments_[i], part.l, part.r);
+      if (hull(m[i]) != Sign::uncertain) return Finding{Answer::never};
     }
-    if (axis_excludes(part.l, part.r)) return {Answer::never};
-    if (Dimension == 2 && opposite(sign(first[0]), sign(first[2]))) return settle_crossing(part, first);
-    return {Answer::open, 0, 0, Dimension == 2 ? extremum(first) : 0.5};
+    if (axis_excludes(part.l, part.r)) return Finding{Answer::never};
+    std::size_t steepest = 0;  // of those with one certain root, else of all
+    for (std::size_t i = 1; i < m.size(); ++i) {
+      if (steepness(m[i]) > steepness(m[steepest])) steepest = i;
+    }
+    if (crosses(m[steepest])) {
+      if (const auto root = bracket(steepest, part, m[steepest])) return settled_at_root(steepest, *root);
+    }
+    split = extremum(m[steepest]);
+    return std::nullopt;
   }
 
-  /// In the plane a part is divided where the moment is extremal: it has at most one root on either side then.
+  static bool crosses(const Quadratic& m) { return opposite(sign(m[0]), sign(m[2])); }
+
+  /// How much m changes; more if it certainly crosses 0.
+  static double steepness(const Quadratic& m) {
+    return magnitude(m[2].value - m[0].value) + (crosses(m) ? 4.0 : 0.0);  // no coefficient exceeds 1
+  }
+
+  /// A part is divided where the moment is extremal: it has at most one root on either side then.
   static double extremum(const Quadratic& m) {
     const double fall = m[0].value - m[1].value, s = fall / (fall - (m[1].value - m[2].value));
     return s > 0x1p-4 && s < 1 - 0x1p-4 ? s : 0.5;
   }
 
-  /// In the plane: `m` over the part has opposite signs at its ends.
-  Finding settle_crossing(const Part& part, const Quadratic& m) const {
-    // m = m0 + 2 b s + a s^2, one root in [0, 1], computed without cancellation
+  /// A short bracket of the only root of coordinate `i` in the part, over which it has the coefficients `m`.
+  std::optional<Part> bracket(std::size_t i, const Part& part, const Quadratic& m) const {
+    // m = m0 + 2 b s + a s^2, solved without cancellation
     const double b = m[1].value - m[0].value, a = (m[2].value - m[1].value) - b;
     const double root = std::sqrt(std::max(b * b - a * m[0].value, 0.0));
     const double q = -(b + std::copysign(root, b));
@@ -201,17 +215,24 @@ class Search {
       const double l = part.l + (part.r - part.l) * std::max(s - h, 0.0);
       const double r = part.l + (part.r - part.l) * std::min(s + h, 1.0);
       if (!(l < r) || !(r <= part.r)) break;
-      const Quadratic near_root = restricted(moments_[0], l, r);
-      if (sign(near_root[0]) != sign(m[0]) || sign(near_root[2]) != sign(m[2])) continue;
-      bool inside = false;
-      for (std::size_t axis = 0; axis < Dimension; ++axis) {
-        const Sides side = sides(axis, l, r);
-        if (side.a == side.b && side.a != Sign::uncertain) return {Answer::never};
-        inside |= opposite(side.a, side.b);
-      }
-      return inside ? Finding{Answer::touches, l, r} : Finding{Answer::open};
+      const Quadratic near_root = restricted(moments_[i], l, r);
+      if (sign(near_root[0]) == sign(m[0]) && sign(near_root[2]) == sign(m[2])) return Part{l, r, 0};
     }
-    return {Answer::open};
+    return std::nullopt;
+  }
+
+  /// On the bracket of the only root that coordinate `i` has in a part.
+  Finding settled_at_root(std::size_t i, const Part& root) const {
+    for (std::size_t other = 0; other < moments_.size(); ++other) {
+      if (other != i && hull(restricted(moments_[other], root.l, root.r)) != Sign::uncertain) return {Answer::never};
+    }
+    bool inside = false;
+    for (std::size_t axis = 0; axis < Dimension; ++axis) {
+      const Sides side = sides(axis, root.l, root.r);
+      if (side.a == side.b && side.a != Sign::uncertain) return {Answer::never};
+      inside |= opposite(side.a, side.b);
+    }
+    return Dimension == 2 && inside ? Finding{Answer::touches, root.l, root.r} : Finding{Answer::open};
   }
 
   const double* points_;
