@@ -83,16 +83,17 @@ std::optional<std::string> write(const fs::path& file, const std::string& text) 
   return fmt::format("cannot write {}: {}", file.filename().string(), std::strerror(errno));
 }
 
-/// The queries on which a promise was broken, with their truths, as query files.
-std::optional<std::string> write_broken(const fs::path& folder, std::span<const stability::BrokenPromise> broken) {
-  auto created = create_queries(folder / "broken-promises", "broken");
+/// The queries of one type on which a promise was broken, with their truths, as query files.
+std::optional<std::string> write_broken(const fs::path& folder, std::span<const stability::BrokenPromise> broken,
+                                        stability::Real real) {
+  auto created = create_queries(folder / "broken-promises", std::string(name(real)));
   if (const auto* wrong = std::get_if<FileError>(&created)) return wrong->message;
   QueryWriter& writer = *std::get<std::unique_ptr<QueryWriter>>(created);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     QueryBlock block;
     block.kind = kind;
     for (const stability::BrokenPromise& promise : broken) {
-      if (promise.kind != kind) continue;
+      if (promise.kind != kind || promise.real != real) continue;
       block.points.insert(block.points.end(), promise.points.begin(), promise.points.end());
       block.truths.push_back(promise.contact ? 1 : 0);
     }
@@ -112,7 +113,11 @@ std::optional<std::string> write_all(const fs::path& folder, const stability::Sw
     const std::string svg = charts::heat_map_svg(page.maps);
     if (auto wrong = write(folder / (page.file + ".svg"), svg)) return wrong;
   }
-  if (!result.broken.empty()) return write_broken(folder, result.broken);
+  for (const stability::Real real : {stability::Real::in_double, stability::Real::in_float}) {
+    const auto of_type = [&](const stability::BrokenPromise& promise) { return promise.real == real; };
+    if (std::none_of(result.broken.begin(), result.broken.end(), of_type)) continue;
+    if (auto wrong = write_broken(folder, result.broken, real)) return wrong;
+  }
   return std::nullopt;
 }
 
@@ -141,12 +146,15 @@ std::string summary(const stability::Atlas& atlas) {
   return text;
 }
 
-int tell_broken(const stability::SweepResult& result, const std::string& output) {
-  for (const stability::BrokenPromise& promise : result.broken) {
-    warn(fmt::format("{} in {} answers {} to a {} query that {} contact", name(promise.method), name(promise.real),
-                     promise.contact ? "0" : "1", name(promise.kind), promise.contact ? "has" : "has no"));
+void tell_broken(const stability::SweepResult& result, const std::string& output) {
+  constexpr std::size_t most_lines = 5;
+  for (std::size_t i = 0; i < std::min(most_lines, result.broken.size()); ++i) {
+    const stability::BrokenPromise& promise = result.broken[i];
+    warn(fmt::format("{} in {}, {}: answers {} to a query that has {}", name(promise.method), name(promise.real),
+                     name(promise.kind), promise.contact ? "0" : "1", promise.contact ? "contact" : "none"));
   }
-  return fail(fmt::format("a method broke its promise; the queries are in {}/broken-promises", output));
+  fail(fmt::format("a method broke its promise; queries that show it, {} of them, are in {}/broken-promises",
+                   result.broken.size(), output));
 }
 
 int run(const StabilityOptions& options) {
