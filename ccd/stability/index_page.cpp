@@ -33,10 +33,26 @@ std::string worst_family(const Atlas& atlas, Real real, std::size_t method) {
   return worst;
 }
 
+/// The largest distance at which, all families together and at the least offset, more than one of a hundred queries
+/// without contact is a false alarm.
+std::string doubt(const Atlas& atlas, Real real, std::size_t method) {
+  const Axes& axes = atlas.axes;
+  for (std::size_t d = axes.distances.size(); d-- > 0;) {
+    Rate alarms;
+    for (const Map& map : atlas.maps) {
+      for (std::size_t s = 0; map.real == real && s < axes.scales.size(); ++s) {
+        alarms += rate(Figure::false_alarms, map, map.methods[method], axes.cell(0, d, s));
+      }
+    }
+    if (alarms.known() && alarms.value() > 0.01) return fmt::format("{}", axes.distances[d]);
+  }
+  return "nowhere";
+}
+
 std::string table(const Atlas& atlas) {
   std::string text = "<div class=\"scroll\"><table>\n<thead><tr><th>method</th><th>type</th>";
   for (const Figure figure : all_figures) text += fmt::format("<th>{}</th>", name(figure));
-  text += "<th>most false alarms</th></tr></thead>\n<tbody>\n";
+  text += "<th>1 % false alarms up to distance</th><th>most false alarms</th></tr></thead>\n<tbody>\n";
   for (const Real real : {Real::in_double, Real::in_float}) {
     bool any = false;
     for (const Map& map : atlas.maps) any |= map.real == real;
@@ -47,7 +63,8 @@ std::string table(const Atlas& atlas) {
         const bool wrong = figure == Figure::misses && figures != "0";
         text += fmt::format("<td{}>{}</td>", wrong ? " class=\"alarm\"" : "", escaped(figures));
       }
-      text += fmt::format("<td>{}</td></tr>\n", escaped(worst_family(atlas, real, m)));
+      text +=
+          fmt::format("<td>{}</td><td>{}</td></tr>\n", doubt(atlas, real, m), escaped(worst_family(atlas, real, m)));
     }
   }
   return text + "</tbody>\n</table></div>\n";

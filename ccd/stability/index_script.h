@@ -39,6 +39,13 @@ that of the numbers which are left.</p>
 away. There the rows repeat what touching queries give.</p>
 <p>White: none. Hatched: there is nothing to count, as in maps of false alarms where all queries are contacts. Red: contacts
 were missed. A method that promises to miss none must have no red at all.</p>
+<h2>Why</h2>
+<p>Without error bounds, numbers that should be 0 come out with either sign, and one wrong sign separates what touches: red at and
+just above distance 0, most of it at corners. With bounds such signs are left open, which costs false alarms instead, up to the distance
+at which what is computed outgrows its bound: some units in the last place in general position, the root of a unit roundoff where faces are flat,
+edges parallel, or hardly anything moves, because normals shrink with the distance there. Exact methods pay with exact arithmetic where
+bounds leave signs open. The scale changes nothing, as all methods normalise by powers of two; the offset nothing but the grid of the
+coordinates. docs/stability.md of the sources tells more.</p>
 )";
 
 inline constexpr const char* index_script = R"(

@@ -177,8 +177,14 @@ class Picture {
   /// Below its cell, but not beyond the map.
   void add_x_label(const CellLabel& label, double map) {
     const double half = text_width(printable(label.text), small_size) / 2;
-    const double at = std::clamp((label.cell + 0.5) * cell_width_, half, std::max(half, map_width_ - half));
-    add_text(map + at, y_, label.text, small_size, " text-anchor=\"middle\"");
+    const double at = (label.cell + 0.5) * cell_width_;
+    if (at < half) {
+      add_text(map, y_, label.text, small_size);
+    } else if (at > map_width_ - half) {
+      add_text(map + map_width_, y_, label.text, small_size, " text-anchor=\"end\"");
+    } else {
+      add_text(map + at, y_, label.text, small_size, " text-anchor=\"middle\"");
+    }
   }
 
   const HeatMapPage& page_;

@@ -35,7 +35,7 @@ RULES = {
     "ccd/oracle/": [r"ccd/oracle/.*", r"ccd/tightrope/ccd\.h", r"gmp(?:xx)?\.h"],
     "ccd/query_io/": [r"ccd/query_io/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"hdf5\.h", POSIX],
     "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],
-    "ccd/stability/": [r"ccd/(?:stability|scenes|oracle)/.*", API, r"ccd/query\.h", r"ccd/methods/bsc_exact\.h",
+    "ccd/stability/": [r"ccd/(?:stability|scenes|oracle|impact)/.*", API, r"ccd/query\.h", r"ccd/methods/bsc_exact\.h",
                        r"codegen/charts/.*", r"fmt/.*", r"nlohmann/.*"],
     "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io|stability)/.*", API, r"ccd/query\.h", r"codegen/charts/.*",
                      r"fmt/.*", r"CLI/.*", r"nlohmann/.*", POSIX],
