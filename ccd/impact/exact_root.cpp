@@ -86,6 +86,11 @@ bool is_linear(const Quadratic& j) {
   return sign_of(shape.bend) == DefiniteSign::zero;
 }
 
+bool is_linear(const Cubic& k) {
+  const auto shape = generated::bends_of_cubic<bound::exact, double>::evaluate_values(k.exact.data());
+  return sign_of(shape.bend[0]) == DefiniteSign::zero && sign_of(shape.bend[1]) == DefiniteSign::zero;
+}
+
 DefiniteSign sign_at(const Quadratic& j, const Ratio& r) {
   return sign_of(generated::quadratic_at<bound::exact, double>::evaluate_values(j.exact.data(), r.s, r.t).height);
 }
@@ -224,6 +229,7 @@ void Root::narrow_to_neighbours() {
 
 /// Where the zero of the line is not in (0, 1), or not in the enclosure, the ends of that tell.
 DefiniteSign Root::sign(const Line& l) const {
+  if (is_end()) return sign_of(lower_ == 0 ? l[0] : l[1]);
   if (is_ratio()) return sign_at(l, ratio_);
   const DefiniteSign a = sign_of(l[0]), b = sign_of(l[1]);
   if (!opposite(a, b)) return a == DefiniteSign::zero ? b : a;
@@ -241,12 +247,12 @@ bool Root::crosses(const Line& l) const {
 }
 
 DefiniteSign Root::sign(const Quadratic& j) const {
+  if (is_end()) return sign_of(lower_ == 0 ? j.exact[0] : j.exact[2]);
   const auto signs = signs_of(j.exact);
   if (all_equal(signs)) return signs[0];
-  if (is_ratio()) return sign_at(j, ratio_);
   const auto hull = generated::quadratic_between<bound::tight, double>::evaluate(j.near.data(), lower_, upper_);
   if (const DefiniteSign s = common_sign(hull.part); s != DefiniteSign::zero) return s;
-  return sign_by_division(j);
+  return is_ratio() ? sign_at(j, ratio_) : sign_by_division(j);
 }
 
 /// square * Y = j m + n with linear m and n, square > 0 for a j that is not linear (MATH 2.5): at the root j m = -n. If
@@ -272,6 +278,7 @@ std::vector<Root> inner_roots(const Cubic& k) {
   const auto signs = signs_of(k.exact);
   int count = sign_changes(signs);
   if (count == 0) return roots;
+  if (count == 1 && is_linear(k)) return {Root(zero_of(Line{k.exact[0], k.exact[3]}), 0, 1)};
   const DefiniteSign before = *std::find_if(signs.begin(), signs.end(), [](auto s) { return s != DefiniteSign::zero; });
   DefiniteSign determinant = DefiniteSign::positive;
   std::array<Dyadic, 3> h;

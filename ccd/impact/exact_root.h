@@ -63,6 +63,7 @@ class Root {
   DefiniteSign sign_by_division(const Quadratic& j) const;
 
   bool is_ratio() const { return cubic_ == nullptr; }
+  bool is_end() const { return upper_ == 0 || lower_ == 1; }
 
   Ratio ratio_;
   const Cubic* cubic_ = nullptr;  ///< none: this is the ratio
