@@ -1,18 +1,15 @@
 #pragma once
-/// The two arithmetics of exact_search.h: exact numbers, and doubles with TightBound that give up where a bound does
-/// not tell a sign.
+/// The arithmetic of exact_search.h: doubles with TightBound that give up where a bound does not tell a sign.
 ///
 /// Who includes this includes the generated headers first.
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 #include "ccd/methods/exact_tables.h"
 #include "ccd/rescale.h"
-#include "tightrope/exact.h"
 #include "tightrope/sign.h"
 
 namespace tightrope::generated {
@@ -22,10 +19,8 @@ struct quadratic_at_roots;
 
 namespace tightrope::ccd::exact {
 
-// Outputs of generated predicates as arrays of numbers. Exact ones are there, since inputs are finite and nothing is
-// divided.
+// Outputs of generated predicates as arrays of numbers.
 inline const Bounded<double>& value(const Bounded<double>& x) { return x; }
-inline const Dyadic& value(const std::optional<Dyadic>& x) { return *x; }
 template <class Output, std::size_t N>
 auto values(const Output (&x)[N]) {
   std::array<std::remove_cvref_t<decltype(value(x[0]))>, N> result;
@@ -39,39 +34,11 @@ struct Division {
   std::array<Number, 2> m, n;
 };
 
-class ExactArithmetic {
- public:
-  using Number = Dyadic;
-  static constexpr bool knows_zero = true;
-  static bool gave_up() { return false; }
-
-  static DefiniteSign sign(const Dyadic& x) { return static_cast<DefiniteSign>(x.sign()); }
-  static Dyadic negated(const Dyadic& x) { return -x; }
-
-  template <template <class, class> class Predicate, class... Arguments>
-  static auto evaluate(const Arguments&... arguments) {
-    return Predicate<bound::exact, double>::evaluate_values(arguments...);
-  }
-  static Division<Dyadic> division(const std::array<Dyadic, 4>& k, const std::array<Dyadic, 3>& j) {
-    using predicate = generated::quadratic_at_roots<bound::exact, double>;
-    return {values(predicate::cofactor_values(k.data(), j.data()).m),
-            values(predicate::remainder_values(k.data(), j.data()).n)};
-  }
-
-  template <class Tuple>
-  static void rescale(const Tuple&) {}  // exponents have no limit
-  template <class Quadratics>
-  static std::array<std::size_t, 3> axes(const Quadratics&) {
-    return {0, 1, 2};
-  }
-};
-
 /// `Signs` reads the signs (sign_reader.h).
 template <class Signs>
 class FilterArithmetic {
  public:
   using Number = Bounded<double>;
-  static constexpr bool knows_zero = false;
   explicit FilterArithmetic(Signs& signs) : signs_(signs) {}
   bool gave_up() const { return gave_up_; }
 

@@ -1,22 +1,13 @@
 #pragma once
-/// Bernstein sign classification with every sign exact: one template, decided in exact arithmetic or, as a filter, in
-/// floating point with bounds, which gives up where a bound does not tell (MATH 2.7). The answer is then contact or no
-/// contact, in every degenerate case.
+/// Bernstein sign classification with every sign definite: decided in floating point with bounds, which gives up where
+/// a bound does not tell a sign (MATH 2.7). The answer is then contact or no contact. A filter: zeros are never known,
+/// so degenerate cases are left to the exact stage (ccd/impact/exact_time.h).
 ///
-/// `Arithmetic` has
-///   Number                       of which `sign` is the DefiniteSign
-///   evaluate<Predicate>(args..)  the outputs of a generated predicate
-///   gave_up()                    a sign was not known: all answers since then mean nothing
-///   knows_zero                   whether a sign may be zero; if not, the degenerate cases are left out
-///   rescale(tuple), axes(z)      exact scaling for range; the order in which coordinates are looked at
-///
-/// Who includes this includes the generated headers first.
+/// `Arithmetic`: FilterArithmetic of exact_arithmetic.h. Who includes this includes the generated headers first.
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <tuple>
-#include <type_traits>
 
 #include "ccd/methods/exact_tables.h"
 
@@ -33,12 +24,6 @@ template <class Bound, class Real>
 struct cubic_at_root;
 template <class Bound, class Real>
 struct slope_at_root;
-template <class Bound, class Real>
-struct parabola;
-template <class Bound, class Real>
-struct quadratic_bend;
-template <class Bound, class Real>
-struct elevated_quadratic;
 }  // namespace tightrope::generated
 
 namespace tightrope::ccd::exact {
@@ -66,21 +51,20 @@ struct Piece {
   Branches<bool> exists;
 };
 
-template <class Arithmetic, std::size_t Functions, class Separators>
+template <class Arithmetic, std::size_t Functions>
 class Search {
  public:
   using Number = typename Arithmetic::Number;
 
-  /// z: the projected quadratics of theorem 1.4. `separators`: a function that gives linear functions, as quadratics
-  /// [axis][pair of points], all positive or all negative in an axis where that axis separates the points (1.4 c).
-  Search(Arithmetic& arithmetic, const Quadratics<Number, Functions>& z, const Separators& separators)
-      : arithmetic_(arithmetic), z_(z), separators_(separators), axes_(arithmetic.axes(z)) {}
+  /// z: the projected quadratics of theorem 1.4.
+  Search(Arithmetic& arithmetic, const Quadratics<Number, Functions>& z)
+      : arithmetic_(arithmetic), z_(z), axes_(arithmetic.axes(z)) {}
 
-  /// Is there contact at some t in [0, 1]? k: coefficients of the cubic Y, zero where the points are coplanar.
+  /// Is there contact at some t in [0, 1]? k: coefficients of the cubic Y, zero where the points are coplanar. If the
+  /// arithmetic gave up the answer means nothing.
   bool contact(const std::array<Number, 4>& k) {
-    if (const auto signs = signs_of(k); signs != std::array<DefiniteSign, 4>{}) return contact_at_roots(k, signs);
-    if constexpr (Arithmetic::knows_zero) return contact_in_a_plane();
-    return true;
+    const auto signs = signs_of(k);
+    return !arithmetic_.gave_up() && contact_at_roots(k, signs);
   }
 
  private:
@@ -91,37 +75,8 @@ class Search {
     return signs;
   }
 
-  /// Y = 0 all the time. The set of times of contact is closed; its first one is 0 or a time at which a sign changes
-  /// that theorem 1.4 asks for: a root of one of the quadratics or, if these are all zero all the time, of one of the
-  /// separators (else the times at which all are zero are among the roots).
-  bool contact_in_a_plane() {
-    if (contact_at_end(0)) return true;
-    bool on_a_line = true;
-    for (const auto& axis : z_) {
-      for (const auto& j : axis) {
-        const auto k = values(arithmetic_.template evaluate<generated::elevated_quadratic>(j.data()).k);
-        const auto signs = signs_of(k);
-        if (signs == std::array<DefiniteSign, 4>{}) continue;
-        on_a_line = false;
-        if (contact_at_roots(k, signs)) return true;
-      }
-    }
-    if (!on_a_line) return false;
-    for (const auto& axis : separators_()) {
-      for (const auto& j : axis) {
-        const auto k = values(arithmetic_.template evaluate<generated::elevated_quadratic>(j.data()).k);
-        const auto signs = signs_of(k);
-        if (signs != std::array<DefiniteSign, 4>{} && contact_at_roots(k, signs)) return true;
-      }
-    }
-    return false;
-  }
-
-  /// Is there contact at a root in [0, 1] of the cubic with coefficients k, not all zero, at whose roots the four
-  /// points are coplanar?
+  /// Is there contact at a root of the cubic with the coefficients k in (0, 1)?
   bool contact_at_roots(const std::array<Number, 4>& k, const std::array<DefiniteSign, 4>& signs) {
-    if (signs[0] == DefiniteSign::zero && contact_at_end(0)) return true;
-    if (signs[3] == DefiniteSign::zero && contact_at_end(2)) return true;
     const int changes = sign_changes(signs);
     if (changes == 0) return false;  // none in (0, 1)
     Piece<Number> whole{k, {}, Course::rising, {false, true}};
@@ -166,19 +121,11 @@ class Search {
     const DefiniteSign inside = piece.course == Course::valley ? DefiniteSign::negative : DefiniteSign::positive;
     const DefiniteSign extremum = extremum_is_open(piece.course, k0, k3) ? sign_at_extremum_of(piece) : inside;
     piece.exists = existing_roots(piece.course, k0, k3, extremum);
-    if (extremum == DefiniteSign::zero) piece.exists.second = false;  // one double root, on both branches
   }
 
   DefiniteSign sign_at_extremum_of(const Piece<Number>& piece) {
     const auto lemma = arithmetic_.template evaluate<generated::extremum>(piece.k.data());
     const DefiniteSign delta = arithmetic_.sign(value(lemma.delta));
-    if constexpr (Arithmetic::knows_zero) {
-      if (delta == DefiniteSign::zero) {  // a parabola, open upwards if it is a valley
-        const auto parabola = arithmetic_.template evaluate<generated::parabola>(piece.k.data());
-        const DefiniteSign extreme = arithmetic_.sign(value(parabola.extreme));
-        return piece.course == Course::valley ? extreme : -extreme;
-      }
-    }
     auto rest = values(lemma.rest);
     const auto ends = signs_of(rest);
     DefiniteSign g = DefiniteSign::zero;
@@ -205,31 +152,15 @@ class Search {
 
   /// The signs at the piece's roots of the quadratic with coefficients j on the piece: table C.
   Branches<DefiniteSign> quadratic_signs(const Piece<Number>& piece, Quadratic<Number> j) {
-    if constexpr (Arithmetic::knows_zero) {
-      const auto signs = signs_of(j);
-      if (signs[0] == signs[1] && signs[1] == signs[2]) return {signs[0], signs[0]};
-      const auto shape = arithmetic_.template evaluate<generated::quadratic_bend>(j.data());
-      if (arithmetic_.sign(value(shape.bend)) == DefiniteSign::zero) return linear_signs(piece, {j[0], j[2]});
-    } else if (const auto hull = arithmetic_.hull_sign(j); hull != DefiniteSign::zero) {
-      return {hull, hull};
-    }
+    if (const auto hull = arithmetic_.hull_sign(j); hull != DefiniteSign::zero) return {hull, hull};
     arithmetic_.rescale(j);
     const auto division = arithmetic_.division(piece.k, j);
     const Branches<DefiniteSign> ms = linear_signs(piece, division.m), ns = linear_signs(piece, division.n);
     const auto at_root = [&](DefiniteSign on_m, DefiniteSign on_n) {
-      const auto sign = quadratic_at_root(on_m, on_n);
-      return sign ? *sign : sign_at_rational_root(piece, division.m, j);
+      return quadratic_at_root(on_m, on_n).value_or(DefiniteSign::zero);
     };
     return {piece.exists.first ? at_root(ms.first, ns.first) : DefiniteSign::zero,
             piece.exists.second ? at_root(ms.second, ns.second) : DefiniteSign::zero};
-  }
-
-  /// The sign of the quadratic at a root of the cubic that is the root of m, too. If m is identically zero the cubic is
-  /// linear (its division by a true quadratic has no quotient), and its root is that of the line from k0 to k3.
-  DefiniteSign sign_at_rational_root(const Piece<Number>& piece, const std::array<Number, 2>& m,
-                                     const Quadratic<Number>& j) {
-    const bool no_quotient = signs_of(m) == std::array<DefiniteSign, 2>{};
-    return sign_at_root_of(j, no_quotient ? std::array<Number, 2>{piece.k[0], piece.k[3]} : m);
   }
 
   /// The sign of a quadratic with coefficients q at the root of a linear function l.
@@ -264,56 +195,11 @@ class Search {
       }
       if (!open.first && !open.second) return false;
     }
-    if constexpr (Arithmetic::knows_zero) {  // all zero: the points are on one line
-      return (open.first && !separated_at(piece, part, false)) || (open.second && !separated_at(piece, part, true));
-    }
-    return true;
-  }
-
-  /// Does an axis separate the points at a root of the piece (MATH 1.4 c)?
-  bool separated_at(const Piece<Number>& piece, const Part<Number>& part, bool second) {
-    for (const auto& axis : separators_()) {
-      bool above = true, below = true;
-      for (const auto& line : axis) {
-        const auto at_roots = quadratic_signs(piece, localized(line, part));
-        const DefiniteSign side = second ? at_roots.second : at_roots.first;
-        above = above && side == DefiniteSign::positive;
-        below = below && side == DefiniteSign::negative;
-        if (!above && !below) break;
-      }
-      if (above || below) return true;
-    }
-    return false;
-  }
-
-  /// Is there contact at t = 0 (coefficient 0) or t = 1 (coefficient 2), where the points are coplanar?
-  bool contact_at_end(std::size_t coefficient) {
-    const auto signs_at_end = [&](const auto& functions) {
-      std::array<DefiniteSign, std::tuple_size_v<std::remove_cvref_t<decltype(functions)>>> signs;
-      for (std::size_t f = 0; f < signs.size(); ++f) signs[f] = arithmetic_.sign(functions[f][coefficient]);
-      return signs;
-    };
-    for (const auto& axis : z_) {
-      switch (verdict(signs_at_end(axis))) {
-        case Verdict::contact:
-          return true;
-        case Verdict::no_contact:
-          return false;
-        case Verdict::open:
-          break;
-      }
-    }
-    for (const auto& axis : separators_()) {
-      const auto signs = signs_at_end(axis);
-      const bool equal = std::all_of(signs.begin(), signs.end(), [&](DefiniteSign s) { return s == signs[0]; });
-      if (equal && signs[0] != DefiniteSign::zero) return false;
-    }
     return true;
   }
 
   Arithmetic& arithmetic_;
   const Quadratics<Number, Functions>& z_;
-  const Separators& separators_;
   std::array<std::size_t, 3> axes_;
 };
 

@@ -1,12 +1,11 @@
 /// The exact stage on queries that floating point does not decide: time of every query on its own, the least of several
-/// runs; median, 99th percentile and greatest over the set. Sets: every degenerate family and, where they are, the public
-/// benchmark's sample queries and the contacts in tests/data/hard. Run: exact_bench [FILTER [TOLERANCE]].
+/// runs; median, 99th percentile and greatest over the set. Sets: every degenerate family and, where they are, the
+/// public benchmark's sample queries and the contacts in tests/data/hard. Run: exact_bench [FILTER [TOLERANCE]].
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <variant>
 #include <vector>
@@ -51,12 +50,14 @@ QuerySet read(const std::string& name, const std::string& path, Kind kind) {
   return set;
 }
 
+/// Those whose name contains `filter`, if there is one.
 std::vector<QuerySet> all_sets(const char* filter) {
+  const char* named = std::getenv("TIGHTROPE_SAMPLE_QUERIES");
+  const std::string samples = named != nullptr ? named : TIGHTROPE_SOURCE_DIR "/../shared/data/sample-queries";
+  const auto wanted = [&](std::string_view set) { return filter == nullptr || set.find(filter) != set.npos; };
   std::vector<QuerySet> sets;
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const char* samples = std::getenv("TIGHTROPE_SAMPLE_QUERIES");
-    const auto wanted = [&](std::string_view set) { return filter == nullptr || set.find(filter) != set.npos; };
-    if (wanted("samples")) sets.push_back(read("samples", samples != nullptr ? samples : TIGHTROPE_SOURCE_DIR "/../shared/data/sample-queries", kind));
+    if (wanted("samples")) sets.push_back(read("samples", samples, kind));
     if (wanted("hard")) sets.push_back(read("hard", TIGHTROPE_SOURCE_DIR "/tests/data/hard", kind));
     for (const SceneInfo& info : scenes()) {
       if (!wanted(info.name)) continue;
@@ -100,12 +101,8 @@ int main(int argc, char** argv) {
   for (const QuerySet& set : all_sets(argc > 1 ? argv[1] : nullptr)) {
     const Pair pair = set.kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge;
     const auto times = nanoseconds(set, [&](const double* points) {
-#ifdef OLD
-      volatile bool r = exact::contact(set.kind, points);
-#else
-      volatile bool r = exact_first_contact(pair, points, tolerance, 1).has_value();
-#endif
-      (void)r; (void)pair; (void)tolerance;
+      volatile bool contact = exact_first_contact(pair, points, tolerance, 1).has_value();
+      (void)contact;
     });
     print(set.name.c_str(), name(set.kind), times);
     all.insert(all.end(), times.begin(), times.end());

@@ -138,8 +138,7 @@ int denied_contacts(std::uint64_t seed, int count, Reader reader) {
       const bool contact =
           with_polynomials<bound::tight>(kind, query.data(), false, [&](const auto& k, const auto& compute_quadratics) {
             const auto z = compute_quadratics();
-            const auto lines = [&] { return z; };
-            return exact::Search(arithmetic, z, lines).contact(exact::values(k));
+            return exact::Search(arithmetic, z).contact(exact::values(k));
           });
       denied += !contact && !arithmetic.gave_up();
     }
