@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "codegen/charts/text.h"
 #include "stability/index_script.h"
 #include "stability/rates.h"
@@ -122,13 +124,13 @@ std::string index_page(const Atlas& atlas, std::span<const Page> pages, const st
   text += fmt::format("<style>{}</style>\n</head>\n<body>\n<h1>Stability atlas</h1>\n", index_style);
   text += fmt::format(
       "<p>Where collision queries get into trouble: {} families of degenerate queries, moved away from their "
-      "degeneracy "
-      "by 0 to {} of their size, at scales from 2<sup>{}</sup> to 2<sup>{}</sup> (in float half the exponents) and up "
-      "to {:.2g} sizes away from the "
-      "origin. Every answer is compared with that of exact arithmetic. A miss is a contact denied, a false alarm one "
+      "degeneracy by 0 to {} of their size, at scales from 2<sup>{}</sup> to 2<sup>{}</sup> (in float half the "
+      "exponents) "
+      "and up to 2<sup>{}</sup> sizes away from the origin. Every answer is compared with that of exact arithmetic. A "
+      "miss is a contact denied, a false alarm one "
       "claimed where there is none. {} queries a cell, seed {}.</p>\n",
       atlas.families.size(), atlas.axes.distances.back(), atlas.axes.scales.front(), atlas.axes.scales.back(),
-      atlas.axes.offsets.back(), atlas.queries, atlas.seed);
+      std::log2(atlas.axes.offsets.back()), atlas.queries, atlas.seed);
   text += table(atlas);
   text += list_of_pages(pages);
   text +=

@@ -15,7 +15,8 @@ section svg { display: block; width: 100%; height: auto; touch-action: pan-y pin
 #card { position: sticky; top: 0; min-height: 3.2em; margin: .6rem 0; padding: .4rem .7rem; border: 1px solid #8888;
   border-radius: 4px; background: #f4f4f4; font-variant-numeric: tabular-nums }
 table { border-collapse: collapse; margin: 1rem 0; font-size: 13px; font-variant-numeric: tabular-nums }
-th, td { padding: .2rem .7rem .2rem 0; border-bottom: 1px solid #8884; text-align: left; white-space: nowrap }
+th, td { padding: .2rem .7rem .2rem 0; border-bottom: 1px solid #8884; text-align: left; vertical-align: bottom }
+td, tbody th { white-space: nowrap }
 .alarm { color: #c00000; font-weight: bold }
 dt { font-weight: bold; float: left; clear: left; width: 9.5rem } dd { margin: 0 0 .3rem 9.5rem }
 @media (prefers-color-scheme: dark) {
