@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "codegen/interval_bound.h"
+#include "codegen/normalize.h"
 #include "codegen/precision.h"
 #include "codegen/safe_bound.h"
 #include "codegen/simplify.h"
@@ -113,7 +114,7 @@ bool constants_fit(const dsl::Predicate& predicate, const FloatFormat& format, d
 BoundedPredicate add_bounds(const dsl::Predicate& original, BoundMode mode, const FloatFormat& format,
                             dsl::Diagnostics& diagnostics, Weakening weakening) {
   BoundedPredicate result;
-  const dsl::Predicate predicate = simplify(original);
+  const dsl::Predicate predicate = simplify(with_normalized_ranges(original));
   if (!constants_fit(predicate, format, diagnostics)) return result;
   switch (mode) {
     case BoundMode::none:
@@ -136,6 +137,7 @@ BoundedPredicate add_bounds(const dsl::Predicate& original, BoundMode mode, cons
       assert(false && "these modes have no bounds");
       break;
   }
+  if (!diagnostics.has_errors()) normalize_inputs(predicate, result);
   return result;
 }
 

@@ -164,6 +164,7 @@ bool ScriptPrinter::define(NodeId id, const Node& n) {
     case Op::min:
     case Op::max:
     case Op::max_magnitude:
+    case Op::normalizer:
     case Op::select:
       return false;
   }

@@ -43,6 +43,7 @@ void OperationCount::add(Op op) {
     case Op::max:
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::max_magnitude:
     case Op::select:
       ++comparisons;

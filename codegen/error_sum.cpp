@@ -61,6 +61,7 @@ double ErrorSum::perturbation(const Node& n) const {
     case Op::max:
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::max_magnitude:
     case Op::select:
       break;
@@ -116,6 +117,7 @@ void ErrorSum::propagate(const Node& n, NodeId d) {
     case Op::max:
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::max_magnitude:
     case Op::select:
       break;

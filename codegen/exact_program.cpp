@@ -218,6 +218,7 @@ class Rewriter {
         return sum(product(at(n.a), at(n.b)), at(n.c));
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
+      case Op::normalizer:
       case Op::max_magnitude:
       case Op::select:
         break;

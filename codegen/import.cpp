@@ -249,6 +249,7 @@ class ImportPrinter {
       case Op::mul_pow2:
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
+      case Op::normalizer:
       case Op::max_magnitude:
       case Op::select:
         assert(false && "imported functions do not have it");

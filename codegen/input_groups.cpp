@@ -107,9 +107,11 @@ int InputGroups::enter(InputGroup wanted, GroupMember member, double range) {
     return g.kind == wanted.kind && g.index == wanted.index && g.list == wanted.list &&
            g.displacements == wanted.displacements && g.inputs == wanted.inputs;
   });
+  const bool normalized = wanted.normalized;
   if (group == groups_.end()) group = groups_.insert(groups_.end(), std::move(wanted));
   group->members.push_back(member);
   group->range = std::max(group->range, range);
+  group->normalized = group->normalized || normalized;
   return static_cast<int>(group - groups_.begin());
 }
 
@@ -125,6 +127,7 @@ InputGroups::Leaf InputGroups::input(const Node& n) {
   }
   group.list = list_of(slot.parameter);
   group.inputs = {slot.parameter, slot.element};
+  group.normalized = p.normalized >= 0;
   const bool scalar = p.dimension == 1;
   group.kind = scalar ? InputGroup::Kind::scalar : InputGroup::Kind::vectors;
   group.index = !scalar ? slot.component : group.list >= 0 ? -1 : slot.parameter;  // a list's scalars are one group
@@ -145,6 +148,7 @@ InputGroups::Leaf InputGroups::difference(const Node& n) const {
   group.displacements = predicate_.grouping.displacements && sx.parameter == sy.parameter && sx.element == sy.element &&
                         sx.component == sy.component && sx.time != sy.time;
   group.inputs = {sx.parameter, sx.element, sy.parameter, sy.element};
+  group.normalized = parameter_of(x).normalized >= 0 || parameter_of(y).normalized >= 0;
   group.name = group.displacements ? "s" : "d";
   if (one_axis) group.name += std::string("_") + axis_names[sx.component];
   return {std::move(group), (range_of(x) + range_of(y)) * (1 + 0x1p-10)};
@@ -156,6 +160,7 @@ InputGroups::Leaf InputGroups::selection(const Leaf& first, const Leaf& second) 
   group.kind = InputGroup::Kind::selected;
   group.index = axis(first.group) == axis(second.group) ? axis(first.group) : -1;
   group.list = first.group.list == second.group.list ? first.group.list : -1;
+  group.normalized = first.group.normalized || second.group.normalized;
   group.inputs = first.group.inputs;
   group.inputs.insert(group.inputs.end(), second.group.inputs.begin(), second.group.inputs.end());
   group.displacements = first.group.displacements && second.group.displacements;

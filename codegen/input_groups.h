@@ -24,7 +24,8 @@ struct InputGroup {
   std::vector<int> inputs;     ///< selected: the parameters (and elements) that the vectors to select from are made of
   std::string name;            ///< for people: "d_x"
   std::vector<GroupMember> members;
-  double range = 0;  ///< no exact member exceeds it, by the declared ranges; else infinity
+  bool normalized = false;  ///< some of its inputs are (normalize.h)
+  double range = 0;         ///< no exact member exceeds it, by the declared ranges; else infinity
   dsl::NodeId maximum = dsl::no_node;
   dsl::NodeId relative_bound = dsl::no_node;
   bool bounded() const { return kind == Kind::bounded; }

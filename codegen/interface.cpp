@@ -21,6 +21,7 @@ std::set<std::string> reserved_names(const dsl::Predicate& predicate) {
                                  "maximum",
                                  "max_magnitude",
                                  "choose",
+                                 "normalizer",
                                  "make_uncertain",
                                  "certain_nonzero",
                                  "certain_nonnegative",

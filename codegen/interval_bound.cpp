@@ -103,7 +103,11 @@ Interval IntervalBounds::outward_hull(std::initializer_list<NodeId> candidates, 
 
 Interval IntervalBounds::input(NodeId id, const Node& n) {
   const dsl::Slot& slot = predicate_.slots[static_cast<std::size_t>(n.index)];
-  const bool bounded = predicate_.parameters[static_cast<std::size_t>(slot.parameter)].bounded;
+  const dsl::Parameter& parameter = predicate_.parameters[static_cast<std::size_t>(slot.parameter)];
+  if (parameter.normalized >= 0 && !weakened(Weakening::drop_underflow)) {  // eta reaches where s x was rounded
+    return {graph_.sub(id, eta_), graph_.add(id, eta_)};
+  }
+  const bool bounded = parameter.bounded;
   if (!bounded || weakened(Weakening::drop_input_bound)) return {id, id};
   const NodeId bound = graph_.input(n.index + static_cast<std::int32_t>(predicate_.slots.size()));
   return {down(graph_.sub(id, bound)), up(graph_.add(id, bound))};
@@ -240,6 +244,7 @@ Interval IntervalBounds::rule(NodeId id, const Node& n) {
       return selection(n);
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::max_magnitude:
       break;  // no operations of predicates
   }

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <span>
 
@@ -114,6 +115,7 @@ std::vector<Real> published_bounds(const dsl::Graph& graph, std::span<const Real
         break;
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
+      case Op::normalizer:
       case Op::sqrt:
       case Op::fma:
         result = std::numeric_limits<Real>::quiet_NaN();
@@ -121,6 +123,21 @@ std::vector<Real> published_bounds(const dsl::Graph& graph, std::span<const Real
     }
   }
   return r;
+}
+
+/// The exact inputs as generated code has them: normalized groups times their powers of two.
+template <class Real>
+void normalize(const dsl::Predicate& predicate, const std::vector<Real>& slots, std::vector<Enclosure>& exact) {
+  std::map<int, Real> largest;
+  const auto group = [&](std::size_t i) {
+    return predicate.parameters[static_cast<std::size_t>(predicate.slots[i].parameter)].normalized;
+  };
+  for (std::size_t i = 0; i < predicate.slots.size(); ++i) {
+    largest[group(i)] = std::max(largest[group(i)], std::abs(slots[i]));
+  }
+  for (std::size_t i = 0; i < predicate.slots.size(); ++i) {
+    if (group(i) >= 0) exact[i] = exact[i] * Enclosure(static_cast<double>(dsl::normalizer_of(largest[group(i)])));
+  }
 }
 
 double quantile(std::vector<double>& sorted, double q) {
@@ -183,6 +200,7 @@ std::vector<StageMeasure> measure_real(const dsl::Predicate& predicate, const Bo
     const std::vector<Real> slots = draw<Real>(predicate, sampling, scale, random);
     std::vector<Enclosure> exact_slots;
     for (const Real x : slots) exact_slots.emplace_back(static_cast<double>(x));
+    normalize(predicate, slots, exact_slots);
     const auto exact = dsl::evaluate<Enclosure>(predicate.graph, exact_slots);
     const auto v = dsl::evaluate<Real>(bounded.graph, slots);
     const auto published = published_bounds<Real>(bounded.graph, v, slots, inputs);

@@ -43,6 +43,7 @@ std::vector<bool> nonnegative_nodes(const dsl::Graph& graph) {
       case Op::mul_pow2:
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
+      case Op::normalizer:
         known = at(n.a);
         break;
       case Op::input:

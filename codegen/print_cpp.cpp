@@ -146,6 +146,8 @@ std::string PredicatePrinter::expression(NodeId id) const {
       return fmt::format("{}({}, {})", dsl::op_name(node.op), a, b);
     case Op::max_magnitude:
       return fmt::format("max_magnitude({}, {})", a, b);
+    case Op::normalizer:
+      return fmt::format("normalizer({})", a);
     case Op::select:
       return fmt::format("choose({}, {}, {})", a, b, operand(node.c));
     case Op::fma:

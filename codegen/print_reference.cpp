@@ -55,6 +55,7 @@ std::string call(const Node& node, const std::vector<int>& line) {
       return fmt::format("select({}, {}, {})", at(node.a), at(node.b), at(node.c));
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
       break;
   }
   assert(false && "lowered predicates hold no operations of bounds");
@@ -159,8 +160,9 @@ void ReferencePrinter::print_parameters() {
   std::vector<std::string> items;
   for (const dsl::Parameter& p : predicate_.parameters) {
     const double range = p.range.value_or(std::numeric_limits<double>::infinity());
-    items.push_back(fmt::format("{{\"{}\", {}, {}, {}, {}, {}, {}}}", p.name, p.elements(), p.moving ? 2 : 1,
-                                p.dimension, p.bounded, p.point, literal(range, Precision::binary64)));
+    const std::string normalized = p.normalized < 0 ? "" : fmt::format(", {}", p.normalized);
+    items.push_back(fmt::format("{{\"{}\", {}, {}, {}, {}, {}, {}{}}}", p.name, p.elements(), p.moving ? 2 : 1,
+                                p.dimension, p.bounded, p.point, literal(range, Precision::binary64), normalized));
   }
   print_list(fmt::format("const std::vector<Parameter> {}_parameters = ", name()), std::move(items));
 }

@@ -125,6 +125,7 @@ Range RangeAnalysis::interval(const Node& n) const {
       return (n.a == n.b ? square(of(n.a)) : of(n.a) * of(n.b)) + of(n.c);
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
       return of(n.a);
   }
   return symmetric(infinity);
@@ -157,6 +158,7 @@ Support RangeAnalysis::support(const Node& n) const {
     case Op::max_magnitude:
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::select:
       break;
   }
@@ -243,6 +245,7 @@ void RangeAnalysis::evaluate_vertex(unsigned vertex) {
       case Op::max_magnitude:
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
+      case Op::normalizer:
       case Op::select:
         v = {0, infinity};  // never below a multi-affine node
         break;

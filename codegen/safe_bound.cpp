@@ -108,8 +108,13 @@ class SafeBounds {
 Pair SafeBounds::leaf(int group, bool rounded) const {
   Pair p;
   p.B = MagnitudePolynomial::variable(group);
+  if (groups_[group].normalized && !weakened(Weakening::drop_underflow)) {  // what s x may have lost (normalize.h)
+    p.underflow = p.underflow_count = 2;
+    p.least_sum = 1;
+    p.rounded = true;
+  }
   if (rounded) p.k = weakened(Weakening::drop_rounding_of_differences) ? 0 : 1;
-  p.rounded = rounded;
+  p.rounded = p.rounded || rounded;
   if (groups_[group].bounded()) {
     p.bounded_degrees[group] = weakened(Weakening::drop_input_bound) ? 0 : 1;
     p.rounded = true;
@@ -266,6 +271,7 @@ Pair SafeBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
       return fused(n);
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::max_magnitude:
       break;
   }

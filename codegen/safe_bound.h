@@ -41,10 +41,10 @@
 /// Nb theta^2) + eta, and Na Nb theta^2 <= theta as long as N^2 theta <= 1. So |f^ - f| <= B~ (F (1 + N theta) - 1),
 /// and N theta is of no account: one comparison a maximum instead of a power of the largest, a product and a sum.
 ///
-/// *Groups*: computed differences per coordinate axis; every vector that `either` selects per axis; exact vectors used directly per
-/// axis; every scalar parameter and every bounded parameter on its own. The roundings of the maxima (1 + 2u for a
-/// difference), of B and of the product are counted and paid by a factor 1 + 2^-20 (2^-10 in single precision); too
-/// many of them are a diagnostic.
+/// *Groups*: computed differences per coordinate axis; every vector that `either` selects per axis; exact vectors used
+/// directly per axis; every scalar parameter and every bounded parameter on its own. The roundings of the maxima (1 +
+/// 2u for a difference), of B and of the product are counted and paid by a factor 1 + 2^-20 (2^-10 in single
+/// precision); too many of them are a diagnostic.
 
 #include "codegen/bounds.h"
 

@@ -218,6 +218,9 @@ dsl::Predicate rebuilt(const dsl::Predicate& predicate, bool rewriting) {
       case Op::certain_nonnegative:
         to = result.graph.binary(n.op, at(n.a), at(n.b));
         break;
+      case Op::normalizer:
+        to = result.graph.unary(n.op, at(n.a));
+        break;
       case Op::select:
         to = rewrite.select(at(n.a), at(n.b), at(n.c));
         break;

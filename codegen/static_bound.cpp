@@ -102,7 +102,8 @@ void StaticBounds::complain(NodeId id, const std::string& message, const std::st
 
 Computed StaticBounds::input(const Node& n) const {
   const dsl::Parameter& p = parameter_of(n);
-  const double error = p.bounded && !weakened(Weakening::drop_input_bound) ? *p.range : 0;
+  double error = p.bounded && !weakened(Weakening::drop_input_bound) ? *p.range : 0;
+  if (p.normalized >= 0 && !weakened(Weakening::drop_underflow)) error = format_.eta;  // of s x, see normalize.h
   return {symmetric(*p.range), error, error};
 }
 
@@ -185,6 +186,7 @@ Unrounded StaticBounds::rule(NodeId id, const Node& n) {
     case Op::input:
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::max_magnitude:
       break;  // no operations of predicates
   }

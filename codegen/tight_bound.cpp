@@ -125,7 +125,8 @@ double TightBounds::magnitude_limit(const Node& n) const {
       const auto& parameter =
           predicate_
               .parameters[static_cast<std::size_t>(predicate_.slots[static_cast<std::size_t>(n.index)].parameter)];
-      return parameter.range.value_or(INFINITY) * (parameter.bounded ? 2 : 1);
+      const double size = parameter.range.value_or(INFINITY) * (parameter.bounded ? 2 : 1);
+      return parameter.normalized >= 0 ? size * inflation : size;
     }
     case Op::constant:
       return std::abs(n.value);
@@ -150,6 +151,7 @@ double TightBounds::magnitude_limit(const Node& n) const {
     case Op::max:
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::max_magnitude:
       return std::max(limit(n.a), limit(n.b));
     case Op::select:
@@ -175,6 +177,7 @@ bool TightBounds::overflow_shows(const Node& n) const {
     case Op::max:
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::max_magnitude:
       return shows(n.a) && shows(n.b);
     case Op::select:

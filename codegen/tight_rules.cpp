@@ -22,7 +22,14 @@ bool is_difference_of_inputs(const dsl::Graph& graph, const Node& n) {
 /// A bounded input's bound R comes in without slack: (1 + 2^-20) R pays for what is computed with it (MATH 4.3).
 Error TightBounds::leaf(const Node& n) {
   const dsl::Slot& slot = predicate_.slots[static_cast<std::size_t>(n.index)];
-  if (!predicate_.parameters[static_cast<std::size_t>(slot.parameter)].bounded) return {};
+  const dsl::Parameter& parameter = predicate_.parameters[static_cast<std::size_t>(slot.parameter)];
+  if (parameter.normalized >= 0 && !weakened(Weakening::drop_underflow)) {  // what s x may have lost (normalize.h)
+    Error lost;
+    lost.underflow = 1;
+    if (!use_ranges_) lost.terms.push_back({r_.constant(format_.eta / format_.unit_roundoff), false, 1});
+    return lost;
+  }
+  if (!parameter.bounded) return {};
   if (weakened(Weakening::drop_input_bound)) return {};
   const NodeId bound = graph_.input(n.index + static_cast<std::int32_t>(predicate_.slots.size()));
   Error e;
@@ -278,6 +285,7 @@ Error TightBounds::rule(NodeId id, const Node& n, const dsl::Output* reporter) {
       return root(id, n);
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
     case Op::max_magnitude:
       break;
   }

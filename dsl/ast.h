@@ -92,6 +92,12 @@ struct GroupDecl {
   std::vector<std::vector<std::pair<std::string, SourceSpan>>> lists;  ///< parameter names
 };
 
+/// `normalize a, b`
+struct NormalizeDecl {
+  SourceSpan span;
+  std::vector<std::pair<std::string, SourceSpan>> names;
+};
+
 /// `property antisymmetric(a, b) of Y, Z` / `property scale(3)` / `property translation_invariant`
 struct PropertyDecl {
   SourceSpan span;
@@ -108,6 +114,7 @@ struct PredicateDecl {
   std::vector<ParameterDecl> parameters;
   std::vector<RangeDecl> ranges;
   std::vector<GroupDecl> groups;
+  std::vector<NormalizeDecl> normalizations;
   std::vector<PropertyDecl> properties;
   std::vector<Statement> body;
 };

@@ -41,12 +41,14 @@ class PredicateElaborator {
     for (const ParameterDecl& p : declaration.parameters) add_parameter(p);
     for (const RangeDecl& r : declaration.ranges) add_range(r);
     elaborate_groups(request_, reporter_, result_);
+    elaborate_normalizations(request_, reporter_, result_);
     run_block(declaration.body, -1, "");
     if (!elaborator_.aborted() && !declarations_.incomplete) check_stages();
     if (!elaborator_.aborted()) {
       for (const PropertyDecl& p : declaration.properties) elaborate_property(p, request_, elaborator_, result_);
     }
     result_.graph = std::move(elaborator_.lowering().graph);
+    if (!elaborator_.aborted()) check_homogeneity(reporter_, result_);
     return std::move(result_);
   }
 

@@ -24,6 +24,11 @@ Predicate elaborate_predicate(const PredicateRequest& request, const Declaration
 /// Enters what `group` statements say into `predicate.grouping`, its parameters known.
 void elaborate_groups(const PredicateRequest& request, Reporter& reporter, Predicate& predicate);
 
+/// Enters what `normalize` statements say into `predicate.parameters`, ranges known.
+void elaborate_normalizations(const PredicateRequest& request, Reporter& reporter, Predicate& predicate);
+/// Reports outputs that scaling a group of normalized inputs would change by more than a factor.
+void check_homogeneity(Reporter& reporter, const Predicate& predicate);
+
 /// Appends the property, its names resolved, unless it is erroneous. Of an instance, a property of parameters whose
 /// motions have come to differ is left out: it does not apply any more.
 void elaborate_property(const PropertyDecl& declaration, const PredicateRequest& request,

@@ -11,6 +11,16 @@
 
 namespace tightrope::dsl {
 
+/// As `normalizer` of the runtime (tightrope/arithmetic.h).
+template <class Real>
+Real normalizer_of(Real largest) {
+  using limits = std::numeric_limits<Real>;
+  if (!(largest <= limits::max())) return limits::quiet_NaN();
+  int exponent = limits::min_exponent - 1;
+  if (largest >= limits::min()) std::frexp(largest, &exponent);
+  return std::ldexp(Real(1), -exponent);
+}
+
 /// The value of one node, given one value per input slot and, by `at(id)`, the values of its operands.
 ///
 /// `Number` needs + - * / and unary minus, construction from double, and found by argument-dependent lookup (or built
@@ -86,6 +96,12 @@ Number evaluate_node(const Node& n, std::span<const Number> slots, const Operand
         return at(n.a) < at(n.b) ? at(n.b) : at(n.a);
       } else {
         return less_or(at(n.a), at(n.b), false);
+      }
+    case Op::normalizer:
+      if constexpr (std::is_floating_point_v<Number>) {
+        return normalizer_of(at(n.a));
+      } else {
+        return at(n.a);  // only the generated code of floating-point numbers has it
       }
     case Op::select:
       return takes_first(at(n.a)) ? at(n.b) : at(n.c);

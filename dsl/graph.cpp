@@ -19,6 +19,7 @@ int operand_count(Op op) {
     case Op::mul_pow2:
     case Op::sqrt:
     case Op::abs:
+    case Op::normalizer:
       return 1;
     case Op::add:
     case Op::sub:
@@ -67,6 +68,8 @@ const char* op_name(Op op) {
       return "fma";
     case Op::select:
       return "select";
+    case Op::normalizer:
+      return "normalizer";
     case Op::max_magnitude:
       return "max_magnitude";
     case Op::certain_nonzero:

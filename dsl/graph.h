@@ -26,6 +26,7 @@ enum class Op : std::uint8_t {
   max,                  ///< exact; NaN if an operand is NaN
   fma,                  ///< a * b + c, rounded once
   select,               ///< b if a >= 0, else (a NaN, too) c: `either`, a choice between equal alternatives (either.h)
+  normalizer,           ///< the power of two that brings the magnitude a below 1, or NaN (codegen/normalize.h)
   certain_nonzero,      ///< a if |a| > b, else NaN: the divisor of a quotient, b its error bound (bounds only)
   certain_nonnegative,  ///< a if a >= b, else NaN: the radicand of a root, b its error bound (bounds only)
   max_magnitude,  ///< max(a, b) of non-negative numbers, may ignore a NaN in b (bounds and sizes of alternatives only)

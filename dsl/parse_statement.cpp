@@ -52,7 +52,7 @@ class BlockParser {
   /// The current token's kind; a misspelt keyword is reported and taken for the one it is nearly.
   TokenKind statement_kind() {
     const Token token = cursor_.peek();
-    if (token.kind != TokenKind::identifier) return token.kind;
+    if (token.kind != TokenKind::identifier || cursor_.at_normalize()) return token.kind;
     if (cursor_.kind(1) == TokenKind::equals) {
       cursor_.expected_here("a statement", fmt::format("a name is bound with `let {} = ...`", cursor_.text(token)));
       return TokenKind::identifier;
@@ -74,6 +74,7 @@ class BlockParser {
     if (kind == TokenKind::keyword_group) return parse_group();
     if (kind == TokenKind::keyword_property) return parse_property();
     if (kind == TokenKind::keyword_return) return parse_return();
+    if (cursor_.at_normalize()) return parse_normalize();
     cursor_.expected_here(context_.function != nullptr ? "`let`, `for`, `return` or `}`"
                           : context_.top_level()
                               ? "`let`, `sign`, `value`, `for`, `stage`, `range`, `group`, `property` or `}`"
@@ -222,6 +223,17 @@ class BlockParser {
     if (range.limit.empty()) return false;
     range.span = cursor_.since(begin);
     if (context_.predicate != nullptr) context_.predicate->ranges.push_back(std::move(range));
+    return true;
+  }
+
+  /// `normalize a, b`
+  bool parse_normalize() {
+    const std::uint32_t begin = cursor_.take().begin;
+    require_top_level_of_predicate();
+    NormalizeDecl normalize;
+    if (!parse_names(cursor_, "a parameter's name", normalize.names)) return false;
+    normalize.span = cursor_.since(begin);
+    if (context_.predicate != nullptr) context_.predicate->normalizations.push_back(std::move(normalize));
     return true;
   }
 

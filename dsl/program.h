@@ -20,6 +20,7 @@ struct Parameter {
   int dimension = 1;            ///< 1, 2 or 3
   std::vector<int> array;       ///< extents; empty for a single one
   std::optional<double> range;  ///< |coordinate| <= range, for all of its scalars (and for its bound)
+  int normalized = -1;          ///< of `normalize`: the number of the group that is scaled together
   int first_slot = 0;
   int elements() const;  ///< product of `array`
   int slots() const { return elements() * (moving ? 2 : 1) * dimension; }

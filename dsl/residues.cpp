@@ -105,6 +105,7 @@ std::uint64_t Residues::value(const Node& n, std::size_t point) const {
     case Op::max_magnitude:
     case Op::certain_nonzero:
     case Op::certain_nonnegative:
+    case Op::normalizer:
       break;
   }
   return unknown_function(n.op, at(n.a), at(n.b), field);

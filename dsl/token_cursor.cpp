@@ -130,7 +130,13 @@ bool TokenCursor::heads_loop() const {
   }
 }
 
+/// `normalize a`: a word that is a statement's first only before a name, so that functions may be called so.
+bool TokenCursor::at_normalize() const {
+  return kind() == TokenKind::identifier && text(peek()) == "normalize" && kind(1) == TokenKind::identifier;
+}
+
 bool TokenCursor::at_statement() const {
+  if (at_normalize()) return true;
   if (kind() == TokenKind::keyword_for) return heads_loop();  // not the one of a comprehension
   return contains(statement_keywords, kind()) || at_declaration();
 }

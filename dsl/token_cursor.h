@@ -57,6 +57,7 @@ class TokenCursor {
   void leave() { --depth_; }
 
   /// At `let`, `sign`, ... or a declaration's keyword; a `for` only if it heads a loop (not a comprehension).
+  bool at_normalize() const;
   bool at_statement() const;
   bool at_declaration() const;
   /// To what looks like the next statement, to the `}` of this block or to the next declaration; blocks on the way are

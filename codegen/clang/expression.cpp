@@ -137,6 +137,7 @@ Op ExpressionReader::operation(const clang::CallExpr* call) const {
                                 {"tightrope::maximum", Op::max},
                                 {"tightrope::max_magnitude", Op::max_magnitude},
                                 {"tightrope::choose", Op::select},
+                                {"tightrope::normalizer", Op::normalizer},
                                 {"tightrope::certain_nonzero", Op::certain_nonzero},
                                 {"tightrope::certain_nonnegative", Op::certain_nonnegative}};
   const clang::FunctionDecl* callee = call->getDirectCallee();

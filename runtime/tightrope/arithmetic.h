@@ -112,6 +112,21 @@ TIGHTROPE_FUNCTION constexpr Real max_magnitude(Real a, Real b) {
   return b > a ? b : a;
 }
 
+/// The power of two by which inputs are normalized whose largest magnitude is `largest`: the product is below 1, and at
+/// least 1/2 unless `largest` is subnormal (or 0). NaN if it is infinite or NaN.
+TIGHTROPE_FUNCTION constexpr double normalizer(double largest) {
+  const int exponent = static_cast<int>(__builtin_bit_cast(unsigned long long, largest) >> 52);  // biased; no sign
+  if (exponent >= 2045)
+    return exponent == 2045 ? 0x1p-1023 : largest <= 0x1.fffffffffffffp+1023 ? 0x1p-1024 : __builtin_nan("");
+  return __builtin_bit_cast(double, static_cast<unsigned long long>(2045 - exponent) << 52);
+}
+TIGHTROPE_FUNCTION constexpr float normalizer(float largest) {
+  const int exponent = static_cast<int>(__builtin_bit_cast(unsigned, largest) >> 23);
+  if (exponent >= 253)
+    return exponent == 253 ? 0x1p-127f : largest <= 0x1.fffffep+127f ? 0x1p-128f : __builtin_nanf("");
+  return __builtin_bit_cast(float, static_cast<unsigned>(253 - exponent) << 23);
+}
+
 /// `first` if the condition, a difference of sizes, is not negative, else (a NaN, too) `second`: one of two values that
 /// stand in equal expressions.
 template <class Real>

@@ -214,6 +214,7 @@ class Judge {
         return sign(at(n.a)) != -1 ? at(n.b) : at(n.c);
       case Op::certain_nonzero:
       case Op::certain_nonnegative:
+      case Op::normalizer:
       case Op::max_magnitude:
         break;
     }

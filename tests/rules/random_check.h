@@ -210,6 +210,7 @@ class RandomCheck {
       case dsl::Op::fma:
       case dsl::Op::certain_nonzero:
       case dsl::Op::certain_nonnegative:
+      case dsl::Op::normalizer:
       case dsl::Op::max_magnitude:
       case dsl::Op::select:
         break;

@@ -105,17 +105,52 @@ std::string judge(const Bounded<Real>& y, const Exact& exact) {
   return "";
 }
 
+/// By slot the power of two that generated code multiplies the input with.
+template <class Real>
+std::vector<Real> scales(const Reference& reference, const Case<Real>& c) {
+  std::vector<int> groups;
+  for (const Parameter& p : reference.parameters)
+    groups.insert(groups.end(), static_cast<std::size_t>(p.slots()), p.normalized);
+  std::vector<Real> result(groups.size(), Real(1));
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i] < 0) continue;
+    Real largest = 0;
+    bool first = true;
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      if (groups[k] != groups[i]) continue;
+      largest = first ? magnitude(c.x[k].value) : max_magnitude(largest, magnitude(c.x[k].value));
+      first = false;
+    }
+    result[i] = normalizer(largest);
+  }
+  return result;
+}
+
+/// The exact inputs behind the values and bounds that generated code gives: those of normalized groups are scaled.
+template <class Real>
+std::vector<Exact> normalized_exact(const Reference& reference, const Case<Real>& c) {
+  std::vector<Exact> result(c.exact.begin(), c.exact.end());
+  const std::vector<Real> scale = scales(reference, c);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (result[i].finite() && std::isfinite(scale[i])) {
+      result[i] = Exact::of(result[i].value * Enclosure(static_cast<double>(scale[i])));
+    }
+  }
+  return result;
+}
+
+template <class Real>
+std::vector<Real> normalized_values(const Reference& reference, const Case<Real>& c) {
+  std::vector<Real> result;
+  const std::vector<Real> scale = scales(reference, c);
+  for (std::size_t i = 0; i < scale.size(); ++i) result.push_back(product(c.x[i].value, scale[i]));
+  return result;
+}
+
 /// Whether both are the same floating-point number, zeros of both signs being one, NaNs too.
 template <class Real>
 bool same(Real a, Real b) {
   return a == b || (std::isnan(a) && std::isnan(b));
-}
-
-template <class Real>
-std::vector<Real> values(const Case<Real>& c) {
-  std::vector<Real> result;
-  for (const auto& x : c.x) result.push_back(x.value);
-  return result;
 }
 
 template <class Real>
@@ -165,8 +200,8 @@ std::string check_family(const Reference& reference, std::span<const Code<Real>>
   Inputs<Real> inputs(reference, random);
   for (int n = 0; n < reference.cases; ++n) {
     const Case<Real> c = inputs.make(family);
-    const std::vector<Exact> exact = evaluate_exact(reference, c.exact);
-    const std::vector<Real> plain = evaluate_plain<Real>(reference, detail::values(c));
+    const std::vector<Exact> exact = evaluate_exact(reference, detail::normalized_exact(reference, c));
+    const std::vector<Real> plain = evaluate_plain<Real>(reference, detail::normalized_values(reference, c));
     for (const Code<Real>& code : codes) {
       if (std::string text = detail::check_case(reference, code, c, exact, plain); !text.empty()) return text;
     }
@@ -190,7 +225,7 @@ std::string check_worst_errors(const Reference& reference, std::span<const Code<
     double best_ratio = -1;
     for (int n = 0; n < steps; ++n) {
       const Case<Real> c = n == 0 ? best : inputs.mutate(best);
-      const std::vector<Exact> exact = evaluate_exact(reference, c.exact);
+      const std::vector<Exact> exact = evaluate_exact(reference, detail::normalized_exact(reference, c));
       const std::vector<Bounded<Real>> y = detail::evaluate(reference, code, c);
       for (std::size_t i = 0; i < y.size(); ++i) {
         const std::string what = detail::judge(y[i], exact[i]);

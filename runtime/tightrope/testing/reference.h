@@ -70,8 +70,9 @@ struct Parameter {
   int times;  ///< 2 if it moves
   int dimension;
   bool bounded;
-  bool point;    ///< a translation moves it
-  double range;  ///< |coordinate| <= range; infinite if none was declared
+  bool point;           ///< a translation moves it
+  double range;         ///< |coordinate| <= range; infinite if none was declared
+  int normalized = -1;  ///< the group of inputs that generated code multiplies by one power of two
   int slots() const { return elements * times * dimension; }
 };
 

@@ -307,6 +307,7 @@ Graph mutated(const Graph& graph, NodeId victim) {
         case Op::max_magnitude:
         case Op::certain_nonzero:
         case Op::certain_nonnegative:
+        case Op::normalizer:
           break;
       }
     }
