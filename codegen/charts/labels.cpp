@@ -19,6 +19,7 @@ constexpr double leader_cost = 12;          // as much as 12 pixels of distance
 constexpr double crossing_cost = 25;        // of two leaders
 constexpr double upon_line_cost = 20;       // a label upon a line of the chart, a leader across it
 constexpr double through_marker_cost = 60;
+constexpr double ambiguous_cost = 35;  // a label without leader that is nearer to another marker
 constexpr double first_gap = 2;        // pixels between marker and label
 constexpr double leader_from_gap = 7;  // from here on a leader is drawn
 constexpr int directions = 32;
@@ -34,6 +35,11 @@ struct Candidate {
 /// The point of the box that is nearest to `p`.
 Place nearest(const Box& box, Place p) {
   return {std::clamp(p.x, box.left, box.right), std::clamp(p.y, box.top, box.bottom)};
+}
+
+double distance(const Box& box, Place p) {
+  const Place q = nearest(box, p);
+  return std::hypot(q.x - p.x, q.y - p.y);
 }
 
 Segment leader_of(const LabelRequest& request, const Box& box) {
@@ -103,11 +109,15 @@ class Placer {
     if (candidate.place.has_leader) {
       candidate.place.leader = leader_of(request, box);
       candidate.cost += leader_cost;
-      for (const Box& obstacle : obstacles_) {
-        const bool own = overlap(obstacle, box_around(request.marker, 1, 1));
-        candidate.cost += !own && meets(candidate.place.leader, obstacle) ? through_marker_cost : 0;
-      }
       for (const Segment& line : lines_) candidate.cost += cross(candidate.place.leader, line) ? upon_line_cost : 0;
+    }
+    for (const Box& obstacle : obstacles_) {
+      if (overlap(obstacle, box_around(request.marker, 1, 1))) continue;  // its own
+      if (candidate.place.has_leader) {
+        candidate.cost += meets(candidate.place.leader, obstacle) ? through_marker_cost : 0;
+      } else if (distance(box, obstacle.centre()) < distance(box, request.marker)) {
+        candidate.cost += ambiguous_cost;
+      }
     }
     candidates.push_back(candidate);
   }

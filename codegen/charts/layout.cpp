@@ -20,7 +20,7 @@ constexpr double tick_width = 56;    // what labels of the ticks of y take
 constexpr double right_margin = 24;  // half a label of a tick
 constexpr double gap = 14;           // between panels
 constexpr double frame_height = 250;
-constexpr double band_height = 56;
+constexpr double band_height = 66;
 constexpr double swatch_width = 44;                  // a piece of line in the legend
 constexpr std::size_t most_labels_side_by_side = 8;  // in a panel of half the page's width
 
