@@ -12,8 +12,8 @@
 namespace tightrope::ccd {
 namespace {
 
-using vertex_edge::Answer;
-using vertex_edge::Finding;
+using vertex_edge_query::Answer;
+using vertex_edge_query::Finding;
 
 /// A query's points, prepared for the filter.
 template <std::size_t Dimension>
@@ -36,7 +36,7 @@ struct Prepared {
 /// By the filter; `points` are finite and not one point all the time.
 template <std::size_t Dimension>
 Finding filtered(const Prepared<Dimension>& query, double t_max) {
-  return vertex_edge::Search<bound::tight, Dimension>(query.points, query.was_scaled).first_contact(t_max);
+  return vertex_edge_query::Search<bound::tight, Dimension>(query.points, query.was_scaled).first_contact(t_max);
 }
 
 /// In space.
@@ -66,7 +66,7 @@ std::optional<Impact> first_impact(const double* points, double tolerance, doubl
   if (query.scaled.status == Status::not_finite || query.scaled.status == Status::coincident) {
     return Impact{0, {1, 1, 0, 0}};
   }
-  if (vertex_edge::separated_on_an_axis<Dimension>(points)) return std::nullopt;
+  if (vertex_edge_query::separated_on_an_axis<Dimension>(points)) return std::nullopt;
   const Finding finding = filtered(query, t_max);
   if (finding.answer == Answer::never) return std::nullopt;
   if (finding.answer == Answer::touches && finding.from > 0 && finding.to - finding.from <= tolerance) {
@@ -81,7 +81,7 @@ template <std::size_t Dimension>
 bool touches(const double* points) {
   const Prepared<Dimension> query(points);
   if (query.scaled.status != Prepared<Dimension>::Status::scaled) return true;
-  if (vertex_edge::separated_on_an_axis<Dimension>(points)) return false;
+  if (vertex_edge_query::separated_on_an_axis<Dimension>(points)) return false;
   const Finding finding = filtered(query, 1);
   if (finding.answer != Answer::open) return finding.answer == Answer::touches;
   return exact_contact(Pair::vertex_edge, in_space<Dimension>(points).data());

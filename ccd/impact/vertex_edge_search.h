@@ -40,7 +40,7 @@ template <class Bound, class Real>
 struct vertex_edge_offset;
 }  // namespace tightrope::generated
 
-namespace tightrope::ccd::vertex_edge {
+namespace tightrope::ccd::vertex_edge_query {
 
 enum class Answer { never, touches, open };
 
@@ -241,4 +241,4 @@ class Search {
   Moments moments_;
 };
 
-}  // namespace tightrope::ccd::vertex_edge
+}  // namespace tightrope::ccd::vertex_edge_query

@@ -30,28 +30,28 @@ TEST(Registry, NamesAndMethodsCorrespond) {
 TEST(Api, VertexThroughFaceAndBesideIt) {
   const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
   for (const MethodInfo& info : methods()) {
-    EXPECT_TRUE(vertex_face({0.25, 0.25, 1}, a, b, c, {0.25, 0.25, -1}, a, b, c, info.method));
-    EXPECT_FALSE(vertex_face({0.75, 0.75, 1}, a, b, c, {0.75, 0.75, -1}, a, b, c, info.method));
-    EXPECT_FALSE(vertex_face({0.25, 0.25, 1}, a, b, c, {0.25, 0.25, 0.5}, a, b, c, info.method));
+    EXPECT_TRUE(vertex_face_collides({0.25, 0.25, 1}, a, b, c, {0.25, 0.25, -1}, a, b, c, info.method));
+    EXPECT_FALSE(vertex_face_collides({0.75, 0.75, 1}, a, b, c, {0.75, 0.75, -1}, a, b, c, info.method));
+    EXPECT_FALSE(vertex_face_collides({0.25, 0.25, 1}, a, b, c, {0.25, 0.25, 0.5}, a, b, c, info.method));
   }
 }
 
 TEST(Api, EdgesCrossingAndPassing) {
   const Eigen::Vector3d a(-1, 0, 0), b(1, 0, 0);
   for (const MethodInfo& info : methods()) {
-    EXPECT_TRUE(edge_edge(a, b, {0, -1, 1}, {0, 1, 1}, a, b, {0, -1, -1}, {0, 1, -2}, info.method));
-    EXPECT_FALSE(edge_edge(a, b, {2, -1, 1}, {2, 1, 1}, a, b, {2, -1, -1}, {2, 1, -2}, info.method));
-    EXPECT_FALSE(edge_edge(a, b, {0, -1, 3}, {0, 1, 3}, a, b, {0, -1, 1}, {0, 1, 2}, info.method));
+    EXPECT_TRUE(edge_edge_collides(a, b, {0, -1, 1}, {0, 1, 1}, a, b, {0, -1, -1}, {0, 1, -2}, info.method));
+    EXPECT_FALSE(edge_edge_collides(a, b, {2, -1, 1}, {2, 1, 1}, a, b, {2, -1, -1}, {2, 1, -2}, info.method));
+    EXPECT_FALSE(edge_edge_collides(a, b, {0, -1, 3}, {0, 1, 3}, a, b, {0, -1, 1}, {0, 1, 2}, info.method));
   }
 }
 
 TEST(Api, SinglePrecisionAsDouble) {
   const Eigen::Vector3f a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), d(-1, 0, 0);
   for (const MethodInfo& info : methods()) {
-    EXPECT_TRUE(vertex_face({0.25F, 0.25F, 1}, a, b, c, {0.25F, 0.25F, -1}, a, b, c, info.method));
-    EXPECT_FALSE(vertex_face({0.75F, 0.75F, 1}, a, b, c, {0.75F, 0.75F, -1}, a, b, c, info.method));
-    EXPECT_TRUE(edge_edge(d, b, {0, -1, 1}, {0, 1, 1}, d, b, {0, -1, -1}, {0, 1, -2}, info.method));
-    EXPECT_FALSE(edge_edge(d, b, {2, -1, 1}, {2, 1, 1}, d, b, {2, -1, -1}, {2, 1, -2}, info.method));
+    EXPECT_TRUE(vertex_face_collides({0.25F, 0.25F, 1}, a, b, c, {0.25F, 0.25F, -1}, a, b, c, info.method));
+    EXPECT_FALSE(vertex_face_collides({0.75F, 0.75F, 1}, a, b, c, {0.75F, 0.75F, -1}, a, b, c, info.method));
+    EXPECT_TRUE(edge_edge_collides(d, b, {0, -1, 1}, {0, 1, 1}, d, b, {0, -1, -1}, {0, 1, -2}, info.method));
+    EXPECT_FALSE(edge_edge_collides(d, b, {2, -1, 1}, {2, 1, 1}, d, b, {2, -1, -1}, {2, 1, -2}, info.method));
   }
 }
 

@@ -17,7 +17,8 @@ using nlohmann::json;
 
 TEST(Command, HelpAndVersionAreAnswersNotErrors) {
   const ScratchDirectory scratch;
-  for (const std::string command : {"methods", "evaluate", "classify", "generate", "exact", "stability"}) {
+  for (const std::string command :
+       {"methods", "evaluate", "classify", "toi", "stages", "generate", "exact", "stability"}) {
     const Outcome help = run_command(scratch, {command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_EQ(help.err, "") << command;
@@ -42,7 +43,7 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
     std::vector<std::string> arguments;
     std::string message;
   };
-  const std::string commands = "commands: methods, evaluate, classify, generate, exact, stability";
+  const std::string commands = "commands: methods, evaluate, classify, toi, stages, generate, exact, stability";
   std::string methods;
   for (const MethodInfo& info : ccd::methods()) {
     methods += methods.empty() ? std::string(info.name) : ", " + std::string(info.name);
@@ -62,6 +63,17 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
       {{"evaluate", "--kind", "face-face", "x"}, "--kind: face-face not in {vertex-face,edge-edge}"},
       {{"classify", "--method", "all", "x"}, "unknown method 'all'; accepted: " + methods},
       {{"classify", "x"}, "--method is required"},
+      {{"toi", "--method", "tight", "x"}, "method 'tight' tells no times; those that do: tightrope, safe, safe-tight"},
+      {{"toi", "--method", "all", "x"}, "unknown method 'all'; accepted: tightrope, safe, safe-tight"},
+      {{"toi", "--tolerance", "-1", "x"}, "--tolerance must be 0 or more, and finite"},
+      {{"toi", "--tolerance", "nan", "x"}, "--tolerance must be 0 or more, and finite"},
+      {{"toi", "--tolerance", "1e-3", "--method", "safe", "x"}, "--tolerance and --separation are method tightrope's"},
+      {{"toi", "--separation", "-1", "x"}, "--separation must be 0 or more, and finite"},
+      {{"toi", "--separation", "inf", "x"}, "--separation must be 0 or more, and finite"},
+      {{"toi", "--separation", "1", "--check", "x"}, "--check knows contact only, no --separation"},
+      {{"toi", "--t-max", "1.5", "x"}, "--t-max must be from 0 to 1"},
+      {{"toi"}, "PATH is required"},
+      {{"stages", "--need", "everything", "x"}, "--need: everything not in {boolean,toi}"},
       {{"exact", "--width", "0", "x"}, "--width must be positive"},
       {{"methods", "--format", "csv"}, "--format: csv not in {table,json}"},
       {{"generate", "random", "-o", "x", "--queries", "0"}, "--queries must be from 1 to 1000000000"},

@@ -265,9 +265,10 @@ int wrong_answers(int count, int& open) {
   for (int i = 0; i < count; ++i) {
     const std::vector<double> points = grazing(random);
     const bool truth = oracle::contact(Kind::vertex_face, as_face(c, points));
-    const auto finding = vertex_edge::Search<Bound, 2>(points.data(), false).first_contact(1);
-    open += finding.answer == vertex_edge::Answer::open;
-    wrong += finding.answer != vertex_edge::Answer::open && (finding.answer == vertex_edge::Answer::touches) != truth;
+    const auto finding = vertex_edge_query::Search<Bound, 2>(points.data(), false).first_contact(1);
+    open += finding.answer == vertex_edge_query::Answer::open;
+    wrong += finding.answer != vertex_edge_query::Answer::open &&
+             (finding.answer == vertex_edge_query::Answer::touches) != truth;
   }
   return wrong;
 }
@@ -283,11 +284,11 @@ TEST(VertexEdgeFilter, DecidesRandomMotion) {
   int open = 0;
   for (int i = 0; i < 3000; ++i) {
     const auto points = numbers(cases[1], [&] { return 2 * random.unit() - 1; });
-    open +=
-        vertex_edge::Search<bound::tight, 2>(points.data(), false).first_contact(1).answer == vertex_edge::Answer::open;
+    open += vertex_edge_query::Search<bound::tight, 2>(points.data(), false).first_contact(1).answer ==
+            vertex_edge_query::Answer::open;
     const auto in_space = numbers(cases[0], [&] { return 2 * random.unit() - 1; });
-    open += vertex_edge::Search<bound::tight, 3>(in_space.data(), false).first_contact(1).answer ==
-            vertex_edge::Answer::open;
+    open += vertex_edge_query::Search<bound::tight, 3>(in_space.data(), false).first_contact(1).answer ==
+            vertex_edge_query::Answer::open;
   }
   EXPECT_LE(open, 3);
 }
