@@ -58,6 +58,8 @@ std::vector<Case> cases(BoundMode mode) {
   add(Weakening::drop_underflow, "", "scalar a, b, c", "a * b * c");
   add(Weakening::drop_underflow, "_range", "scalar a, b, c", "a * b * c");
   result.back().range = "  range |a, b, c| <= 1\n";
+  add(Weakening::drop_underflow, "_normalized", "scalar a, b", "b");
+  result.back().range = "  normalize a, b\n";
   add(Weakening::halve_unit_roundoff, "", "scalar a, b", "a * b");
   add(Weakening::drop_division_rounding, "_quotient", "scalar a, b", "a / b");
   add(Weakening::drop_dividend_error, "", "bounded scalar a, scalar b", "a / b");
