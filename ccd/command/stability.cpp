@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int defect = 3;  ///< exit status: a method broke its promise
-constexpr std::size_t most_queries = 1'000'000;
+constexpr std::size_t most_queries = 100'000;
 
 struct StabilityOptions {
   std::string methods = "all";

@@ -65,7 +65,6 @@ std::vector<BaseQuery> base_queries(Scene family, Kind kind, std::size_t count, 
   for (BaseQuery& base : result) {
     base.as_made = normalized(draw(family, kind, random).query);
     base.touching = normalized(draw_touching(family, kind, random));
-    base.directions.resize(24);
     for (double& u : base.directions) u = random.between(-1, 1);
     for (double& axis : base.offset) {
       const double size = 0.125 * random.integer(8, 15);

@@ -1,6 +1,7 @@
 #pragma once
 /// The degenerate queries that a map of the atlas starts from.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,8 +28,8 @@ struct BaseQuery {
   /// Touching in all of the survey's families; perturbed, it is as far from touching as it was moved. The extent of
   /// both is in [1, 2), but for those whose coordinates would not survive that, or that are one point.
   Query touching;
-  std::vector<double> directions;     ///< of the 24 coordinates, in [-1, 1)
-  std::array<double, 3> offset = {};  ///< in units of the offset: multiples of 1/8 in [1, 2), of either sign
+  std::array<double, 24> directions{};  ///< of the coordinates, in [-1, 1)
+  std::array<double, 3> offset{};       ///< in units of the offset: multiples of 1/8 in [1, 2), of either sign
 };
 
 /// `count` of them, determined by family, kind and seed.

@@ -124,11 +124,10 @@ std::string index_page(const Atlas& atlas, std::span<const Page> pages, const st
   text += fmt::format("<style>{}</style>\n</head>\n<body>\n<h1>Stability atlas</h1>\n", index_style);
   text += fmt::format(
       "<p>Where collision queries get into trouble: {} families of degenerate queries, moved away from their "
-      "degeneracy by 0 to {} of their size, at scales from 2<sup>{}</sup> to 2<sup>{}</sup> (in float half the "
-      "exponents) "
-      "and up to 2<sup>{}</sup> sizes away from the origin. Every answer is compared with that of exact arithmetic. A "
-      "miss is a contact denied, a false alarm one "
-      "claimed where there is none. {} queries a cell, seed {}.</p>\n",
+      "degeneracy "
+      "by 0 to {} of their size, at scales from 2<sup>{}</sup> to 2<sup>{}</sup> (in float half the exponents) and up "
+      "to 2<sup>{}</sup> sizes away from the origin. Every answer is compared with that of exact arithmetic. A miss is "
+      "a contact denied, a false alarm one claimed where there is none. {} queries a cell, seed {}.</p>\n",
       atlas.families.size(), atlas.axes.distances.back(), atlas.axes.scales.front(), atlas.axes.scales.back(),
       std::log2(atlas.axes.offsets.back()), atlas.queries, atlas.seed);
   text += table(atlas);

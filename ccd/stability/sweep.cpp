@@ -98,9 +98,9 @@ class Sweep {
           const auto wide = placed(base, request_.axes.distances[distance], request_.axes.offsets[offset]);
           std::transform(wide.begin(), wide.end(), points.begin(), [](double x) { return static_cast<T>(x); });
           add_scales<T>(map, points, offset, distance);
+          done_ += request_.axes.scales.size();
+          if (!proceed_(done_, all_)) return false;
         }
-        done_ += request_.axes.scales.size() * bases.size();
-        if (!proceed_(done_, all_)) return false;
       }
     }
     result_.atlas.maps.push_back(std::move(map));
