@@ -49,6 +49,7 @@ struct BoundedStage {
 struct BoundedPredicate {
   dsl::Graph graph;
   std::vector<BoundedStage> stages;
+  bool recomputes = false;  ///< later stages compute anew what earlier ones have found: nothing is kept for them
 };
 
 /// Test hook: leaves one term out of every bound, to show that the tests notice.

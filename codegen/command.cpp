@@ -13,6 +13,7 @@
 #include "codegen/certify.h"
 #include "codegen/charts/write_chart.h"
 #include "codegen/compile.h"
+#include "codegen/explore/explore_command.h"
 #include "codegen/gappa.h"
 #include "codegen/import_command.h"
 #include "codegen/print_tests.h"
@@ -135,19 +136,6 @@ std::string interpret(const Arguments& arguments, CompileRequest& request) {
   request.depfile = arguments.depfile;
   if (error.empty() && !readable(request.file)) error = fmt::format("cannot read {}", request.file);
   return error;
-}
-
-/// The first file that is there already and is not ours: a CMakeLists.txt of the user's own.
-std::string foreign_file(const std::vector<TextFile>& files) {
-  for (const TextFile& file : files) {
-    if (file.path.filename() != "CMakeLists.txt") continue;
-    std::ifstream stream(file.path, std::ios::binary);
-    std::string start(project_mark.size(), '\0');
-    if (stream && !(stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == project_mark)) {
-      return file.path.string();
-    }
-  }
-  return {};
 }
 
 int run_check(const Arguments& arguments) {
@@ -357,6 +345,11 @@ int run_command(int argc, const char* const* argv) {
   ImportArguments import_arguments;
   add_import_command(app, import_arguments).callback([&] {
     run = [&](const Arguments&) { return run_import(import_arguments); };
+  });
+
+  ExploreArguments explore_arguments;
+  add_explore_command(app, explore_arguments).callback([&] {
+    run = [&](const Arguments&) { return run_explore(explore_arguments); };
   });
 
   try {

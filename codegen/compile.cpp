@@ -39,23 +39,6 @@ std::string make_escaped(std::string_view path) {
   return result;
 }
 
-std::uint64_t source_hash(const dsl::Program& program, const dsl::SourceMap& sources) {
-  Fnv1a hash;
-  for (const std::uint32_t file : program.files) hash.add_text(sources.file(file).text);
-  return hash.value();
-}
-
-/// The header's final text, proved to be what was analysed.
-std::string validated_header(std::span<const GeneratedPredicate> predicates, const HeaderOptions& options,
-                             const std::string& name) {
-  std::string text = formatted(print_header(predicates, options), name);
-  std::vector<AnalysedPredicate> analysed;
-  for (const GeneratedPredicate& p : predicates) analysed.push_back({p.predicate, p.bounded});
-  const std::string mismatch = validate(text, name, analysed, options.mode, options.precision);
-  if (!mismatch.empty()) throw TranslationError(mismatch);
-  return text;
-}
-
 std::string exact_header(const dsl::Program& program, const HeaderOptions& options, const std::string& name,
                          dsl::Diagnostics& diagnostics) {
   std::vector<ExactProgram> exact;
@@ -154,6 +137,22 @@ std::vector<BoundMode> modes_of(const CompileRequest& request, const dsl::Progra
   if (refused(no_exact)) std::erase(modes, BoundMode::exact);
   if (refused(no_staged)) std::erase(modes, BoundMode::staged);
   return modes;
+}
+
+std::uint64_t source_hash(const dsl::Program& program, const dsl::SourceMap& sources) {
+  Fnv1a hash;
+  for (const std::uint32_t file : program.files) hash.add_text(sources.file(file).text);
+  return hash.value();
+}
+
+std::string validated_header(std::span<const GeneratedPredicate> predicates, const HeaderOptions& options,
+                             const std::string& name) {
+  std::string text = formatted(print_header(predicates, options), name);
+  std::vector<AnalysedPredicate> analysed;
+  for (const GeneratedPredicate& p : predicates) analysed.push_back({p.predicate, p.bounded});
+  const std::string mismatch = validate(text, name, analysed, options.mode, options.precision);
+  if (!mismatch.empty()) throw TranslationError(mismatch);
+  return text;
 }
 
 std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl::SourceMap& sources,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "codegen/bounds.h"
+#include "codegen/print_cpp.h"
 #include "codegen/write_files.h"
 
 namespace tightrope::codegen {
@@ -52,6 +53,13 @@ std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const 
 /// `weakening` is the test hook of codegen/bounds.h.
 std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl::SourceMap& sources,
                                              dsl::Diagnostics& diagnostics, Weakening weakening = Weakening::none);
+
+/// What headers say of their source: the hash of the file's text and that of its imports.
+std::uint64_t source_hash(const dsl::Program& program, const dsl::SourceMap& sources);
+
+/// The text of a header of these predicates, formatted, proved to be what was analysed. Throws a TranslationError.
+std::string validated_header(std::span<const GeneratedPredicate> predicates, const HeaderOptions& options,
+                             const std::string& name);
 
 /// Targets and prerequisites as make and ninja read them.
 std::string depfile_text(const std::vector<std::string>& targets, const std::vector<std::string>& prerequisites);

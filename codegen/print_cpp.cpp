@@ -374,6 +374,7 @@ std::string print_header(std::span<const GeneratedPredicate> predicates, const H
       "// Bound mode {}, scalar type {}. Assumes rounding to nearest and gradual underflow (no flush-to-zero).\n",
       TIGHTROPE_VERSION, comment_text(options.source_name), options.source_hash, codegen::name(options.mode),
       codegen::name(options.precision));
+  if (!options.scheme.empty()) head += fmt::format("// Evaluation scheme {} (docs/explore.md).\n", options.scheme);
   if (options.fma) head += fma_note;
   std::string body;
   for (const GeneratedPredicate& generated : predicates) {

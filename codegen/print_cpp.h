@@ -20,7 +20,8 @@ struct HeaderOptions {
   std::uint64_t source_hash = 0;  ///< of the file and its imports
   BoundMode mode = BoundMode::tight;
   Precision precision = Precision::binary64;
-  bool fma = false;  ///< the products were contracted (codegen/fuse.h)
+  bool fma = false;         ///< the products were contracted (codegen/fuse.h)
+  std::string scheme = {};  ///< the evaluation scheme's name, if it was chosen (codegen/explore)
 };
 
 /// The whole header, FILE.BOUND.REAL.h. Deterministic byte for byte; compiles without warnings.

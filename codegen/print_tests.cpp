@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "codegen/interface.h"
@@ -257,6 +258,18 @@ std::string print_tests(const dsl::Program& reference, const TestOptions& option
     text += TestPrinter(predicate, options, budget).print() + print_exact_tests(predicate, options);
   }
   return text + "\n}  // namespace\n}  // namespace tightrope::testing\n";
+}
+
+std::string foreign_file(const std::vector<TextFile>& files) {
+  for (const TextFile& file : files) {
+    if (file.path.filename() != "CMakeLists.txt") continue;
+    std::ifstream stream(file.path, std::ios::binary);
+    std::string start(project_mark.size(), '\0');
+    if (stream && !(stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == project_mark)) {
+      return file.path.string();
+    }
+  }
+  return {};
 }
 
 std::string print_test_project(bool fma) {

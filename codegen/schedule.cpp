@@ -39,7 +39,8 @@ class Scheduler {
       : graph_(predicate.graph),
         need_(register_need(graph_)),
         computed_in_(static_cast<std::size_t>(graph_.size()), none),
-        available_in_(static_cast<std::size_t>(graph_.size()), none) {
+        available_in_(static_cast<std::size_t>(graph_.size()), none),
+        recomputes_(predicate.recomputes) {
     result_.saved.assign(static_cast<std::size_t>(graph_.size()), false);
     for (const BoundedStage& stage : predicate.stages) add_stage(stage);
   }
@@ -68,7 +69,7 @@ class Scheduler {
   bool available(NodeId id) {
     const auto i = static_cast<std::size_t>(id);
     if (is_leaf(graph_[id]) || available_in_[i] == stage()) return true;
-    if (computed_in_[i] == none) return false;
+    if (computed_in_[i] == none || recomputes_) return false;
     result_.saved[i] = true;
     available_in_[i] = stage();
     steps().push_back({Step::Kind::load, id, 0, 0});
@@ -111,6 +112,7 @@ class Scheduler {
   std::vector<int> need_;
   std::vector<int> computed_in_;   ///< the stage that computes a node
   std::vector<int> available_in_;  ///< the last stage that computed or loaded it
+  bool recomputes_;
   Schedule result_;
 };
 

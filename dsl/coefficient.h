@@ -32,6 +32,7 @@ inline Coefficient run_time(NodeId node) { return {.factor = 1, .node = node}; }
 struct Lowering {
   Graph graph;
   ProductScheme products = ProductScheme::direct;
+  EvaluationScheme evaluation = EvaluationScheme::horner;
 
   bool overflow = false;                       ///< a compile-time number left the range of `Rational`
   std::optional<Coefficient> unrepresentable;  ///< a number that had to become a constant and is no double

@@ -35,6 +35,7 @@ ExpressionElaborator::ExpressionElaborator(const Declarations& declarations, con
                                            const ElaborateOptions& options, Reporter& reporter)
     : declarations_(declarations), bodies_(bodies), options_(options), reporter_(reporter) {
   low_.products = options.products;
+  low_.evaluation = options.evaluation;
 }
 
 bool ExpressionElaborator::Level::allowed(SourceSpan span) {

@@ -228,6 +228,27 @@ namespace {
 
 bool is_number_zero(const Coefficient& c) { return c.is_number() && c.factor.is_zero(); }
 
+/// One level of de Casteljau's scheme: whole times the points between those of `points`, the last of which goes.
+void interpolate(Lowering& low, Vector& points, const Weights& w) {
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    points[i] = add(low, multiply(low, points[i], w.zero), multiply(low, points[i + 1], w.one));
+  }
+  points.pop_back();
+}
+
+/// whole^n times the point in which de Casteljau's scheme ends, for the weights at r / whole.
+Polynomial last_point(Lowering& low, const Polynomial& p, const Weights& w) {
+  Polynomial result = value_at_end(p, 0);
+  for (int c = 0; c < p.dimension; ++c) {
+    Vector points;
+    for (int i = 0; i <= p.degree; ++i) points.push_back(p.at(i, c));
+    share_factor(low, points);
+    while (points.size() > 1) interpolate(low, points, w);
+    result.at(0, c) = points.front();
+  }
+  return result;
+}
+
 }  // namespace
 
 Polynomial value_at(Lowering& low, const Polynomial& p, const Weights& w) {
@@ -241,6 +262,7 @@ Polynomial value_at(Lowering& low, const Polynomial& p, const Weights& w) {
     }
     return result;
   }
+  if (low.evaluation == EvaluationScheme::de_casteljau && !is_number_zero(w.zero)) return last_point(low, p, w);
   Coefficient power = w.zero;
   for (int i = p.degree - 1; i >= 0; --i) {
     for (int c = 0; c < p.dimension; ++c) {
@@ -258,18 +280,16 @@ std::array<Polynomial, 2> split(Lowering& low, const Polynomial& p, const Weight
   Vector powers = {number(1)};  // of whole
   for (int i = 0; i < n; ++i) powers.push_back(i == 0 ? w.whole : multiply(low, powers.back(), w.whole));
   std::array<Polynomial, 2> parts = {p, p};
-  Vector points(static_cast<std::size_t>(n + 1));
   for (int c = 0; c < p.dimension; ++c) {
-    for (int i = 0; i <= n; ++i) points[static_cast<std::size_t>(i)] = p.at(i, c);
+    Vector points;
+    for (int i = 0; i <= n; ++i) points.push_back(p.at(i, c));
     share_factor(low, points);
     // Level r holds whole^r times the points of the scheme; the rest of whole^n is multiplied to the results.
     for (int level = 0; level <= n; ++level) {
       const Coefficient& rest = powers[static_cast<std::size_t>(n - level)];
       parts[0].at(level, c) = multiply(low, points.front(), rest);
       parts[1].at(n - level, c) = multiply(low, points[static_cast<std::size_t>(n - level)], rest);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(n - level); ++i) {
-        points[i] = add(low, multiply(low, points[i], w.zero), multiply(low, points[i + 1], w.one));
-      }
+      if (level < n) interpolate(low, points, w);
     }
   }
   return parts;

@@ -87,8 +87,15 @@ enum class ProductScheme {
   karatsuba,  ///< c1 = u0 v0 + u1 v1 - (u1 - u0)(v1 - v0)
 };
 
+/// How the value of a polynomial at one place, `P at t`, is computed.
+enum class EvaluationScheme {
+  horner,        ///< ((s_n r + s_(n-1) q) r + s_(n-2) q^2) r + ..., q = 1 - r: 2 n products and more, n sums
+  de_casteljau,  ///< repeated interpolation: n (n + 1) products, n (n + 1) / 2 sums, none of them large
+};
+
 struct ElaborateOptions {
   ProductScheme products = ProductScheme::direct;
+  EvaluationScheme evaluation = EvaluationScheme::horner;
   std::size_t max_nodes = 2'000'000;  ///< a predicate with a larger graph is an error
   int max_degree = 64;                ///< a polynomial of higher degree is an error
 };
