@@ -58,9 +58,9 @@ struct Weights {
 };
 Weights weights(Lowering& low, const Coefficient& r, const Coefficient& whole);
 
-/// whole^n * P(r / whole) by `low.evaluation`. Horner: ((s_n r + s_(n-1) q) r + s_(n-2) q^2) r + ... with q = whole - r: no coefficient suffers
-/// more roundings than in de Casteljau's scheme (n products and n sums), and scaled coefficients need no division. De
-/// Casteljau: the last point of his scheme, as in `split`.
+/// whole^n * P(r / whole) by `low.evaluation`. Horner: ((s_n r + s_(n-1) q) r + s_(n-2) q^2) r + ... with q = whole -
+/// r: no coefficient suffers more roundings than in de Casteljau's scheme (n products and n sums), and scaled
+/// coefficients need no division. De Casteljau: the last point of his scheme, as in `split`.
 Polynomial value_at(Lowering& low, const Polynomial& p, const Weights& w);
 /// The end coefficient at t = 0 or 1.
 Polynomial value_at_end(const Polynomial& p, int end);

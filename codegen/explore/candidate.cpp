@@ -110,7 +110,7 @@ std::optional<Candidate> made(const Scheme& scheme, dsl::Predicate predicate, Pr
   candidate.bounded = add_bounds(candidate.predicate, scheme.bound, candidate.precision, errors);
   if (scheme.float_first) candidate.filter = float_filter(candidate.predicate, scheme.bound, inputs, errors);
   if (errors.has_errors()) return std::nullopt;
-  candidate.bounded.recomputes = scheme.recomputes;
+  candidate.bounded.recomputes = scheme.recomputes || scheme.float_first;
   const BoundedPredicate& first = candidate.filter ? candidate.filter->bounded : candidate.bounded;
   candidate.costs = stage_costs(first, schedule(first));
   return candidate;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codegen/charts/pareto.h"
+
 namespace tightrope::codegen::explore {
 namespace {
 
@@ -49,28 +51,19 @@ double Exploration::cost(const Entry& entry) const {
 }
 
 void mark_front(Exploration& exploration) {
-  std::vector<Entry*> best;
+  std::vector<Entry*> eligible;
+  std::vector<charts::Cost> costs;
   for (Entry& entry : exploration.entries) {
     entry.on_front = false;
     const bool has_cost = !exploration.timed || entry.time.median > 0;
     // Operations of a filter say nothing of the cost of what it leaves open.
     const bool comparable = exploration.timed || !entry.candidate.filter;
-    if (entry.candidate.scheme.bound != BoundMode::none && entry.accuracy.sound && has_cost && comparable &&
-        std::isfinite(entry.accuracy.size)) {
-      best.push_back(&entry);
-    }
+    if (entry.candidate.scheme.bound == BoundMode::none || !entry.accuracy.sound || !has_cost || !comparable) continue;
+    if (!std::isfinite(entry.accuracy.size)) continue;
+    eligible.push_back(&entry);
+    costs.push_back({exploration.cost(entry), entry.accuracy.size});
   }
-  std::stable_sort(best.begin(), best.end(), [&](const Entry* a, const Entry* b) {
-    const double cost_a = exploration.cost(*a);
-    const double cost_b = exploration.cost(*b);
-    return cost_a != cost_b ? cost_a < cost_b : a->accuracy.size < b->accuracy.size;
-  });
-  double smallest = INFINITY;
-  for (Entry* entry : best) {
-    if (!(entry->accuracy.size < smallest)) continue;
-    smallest = entry->accuracy.size;
-    entry->on_front = true;
-  }
+  for (const std::size_t i : charts::pareto_front(costs)) eligible[i]->on_front = true;
 }
 
 Exploration explore(const Lowerings& lowerings, const std::vector<Row>& rows, const ExplorationRequest& request,

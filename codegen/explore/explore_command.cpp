@@ -7,7 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "codegen/charts/write_chart.h"
 #include "codegen/compile.h"
+#include "codegen/explore/chart.h"
 #include "codegen/explore/emit.h"
 #include "codegen/explore/exploration.h"
 #include "codegen/print_tests.h"
@@ -92,7 +94,9 @@ int measure(const ExploreArguments& arguments, const Lowerings& lowerings, Preci
   request.all = arguments.all;
   request.timing.inputs = inputs;
   request.timing.flags = words(arguments.flags);
-  std::string error = find_stage(lowerings.written(), arguments.stage, request.timing.last_stage);
+  std::string error = arguments.output.empty() ? "" : charts::check_chart_file(arguments.output);
+  if (!error.empty()) return usage_error(error);
+  error = find_stage(lowerings.written(), arguments.stage, request.timing.last_stage);
   if (!error.empty()) return usage_error(error);
   if (request.time) request.timing.compiler = find_compiler(error);
   if (!error.empty()) return usage_error(error);
@@ -106,14 +110,12 @@ int measure(const ExploreArguments& arguments, const Lowerings& lowerings, Preci
   Exploration exploration = explore::explore(lowerings, rows, request, error);
   if (!error.empty()) return usage_error(error);
   exploration.given_inputs = !arguments.inputs.empty();
-  const std::string result = arguments.format == "json" ? json(exploration) : text(exploration);
-  if (arguments.output.empty()) {
-    std::fputs(result.c_str(), stdout);
-    return done;
+  if (!arguments.output.empty()) {
+    error = charts::write_chart(exploration_chart(exploration), arguments.output);
+    if (!error.empty()) return usage_error(error);
   }
-  const TextFile file{arguments.output, result};
-  error = write_files({&file, 1});
-  return error.empty() ? done : usage_error(error);
+  std::fputs((arguments.format == "json" ? json(exploration) : text(exploration)).c_str(), stdout);
+  return done;
 }
 
 }  // namespace
@@ -129,7 +131,7 @@ CLI::App& add_explore_command(CLI::App& app, ExploreArguments& arguments) {
   command.add_option("--emit", arguments.emit,
                      "write the header of this scheme into the folder -o, and measure nothing");
   command.add_flag("--tests", arguments.tests, "with --emit: also write its tests");
-  command.add_option("-o", arguments.output, "file for the result (standard output if not given); folder with --emit");
+  command.add_option("-o", arguments.output, "a chart, .svg, .png or .html; with --emit the folder");
   command.add_option("--format", arguments.format, "text or json")->capture_default_str();
   command.add_option("--flags", arguments.flags, "of the C++ compiler, $CXX or c++")->capture_default_str();
   command.add_flag("--no-time", arguments.no_time, "operations and bounds alone: the same on every machine");

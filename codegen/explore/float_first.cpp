@@ -22,7 +22,7 @@ FloatFilter float_filter(const dsl::Predicate& predicate, BoundMode mode, Precis
 
 bool admits_float_first(const dsl::Predicate& predicate) {
   return std::none_of(predicate.parameters.begin(), predicate.parameters.end(),
-                      [](const dsl::Parameter& p) { return p.bounded; });
+                      [](const dsl::Parameter& p) { return p.bounded || p.normalized >= 0; });
 }
 
 RoundedInput rounded_input(double x) {

@@ -25,11 +25,13 @@ struct RoundedInput {
 };
 RoundedInput rounded_input(double x);
 
-/// Whether a predicate can have such a filter: none of its inputs comes with an error of its own.
+/// Whether a predicate can have such a filter: none of its inputs comes with an error of its own, nor is
+/// any normalized, by powers of two that would be others in single precision.
 bool admits_float_first(const dsl::Predicate& predicate);
 
 /// The filter under the name NAME_filter, the predicate in double as NAME_in_double, and NAME itself with the interface
-/// of docs/generated-code.md, which asks the one, then the other; State counts the stages that are known in double.
+/// of docs/generated-code.md, which asks the one, then the other. In double every stage computes all it needs anew: it
+/// is rarely asked.
 std::string print_float_first(const Candidate& candidate, const std::string& name, Precision inputs);
 
 /// The two that print_float_first prints, as predicates of their own names.

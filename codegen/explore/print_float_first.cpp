@@ -61,8 +61,8 @@ class FloatFirstPrinter {
       line(fmt::format("  using {0}_result = in_double::{0}_result;", stage.name));
     }
     if (several_) {
-      line("\n  // What later stages take over from earlier ones.\n  struct State {\n    filter::State in_float;");
-      line("    in_double::State in_double;\n    int stages_in_double;\n  };");
+      line("\n  // What later stages take over from earlier ones: in double they compute it anew.");
+      line("  struct State {\n    filter::State of_filter;\n  };");
     }
     out_ += members;
     if (inputs_ == Precision::binary64) out_ += rounding;
@@ -144,10 +144,8 @@ class FloatFirstPrinter {
 
   void print_stage(std::size_t s) {
     const dsl::Stage& stage = predicate_.stages[s];
-    const bool last = s + 1 == predicate_.stages.size();
     const bool from_double = inputs_ == Precision::binary64;
     print_signature(s, has_range_ ? "_in_range" : "");
-    if (several_ && s == 0) line("    state.stages_in_double = 0;");
     std::string all_definite;
     for (const dsl::Output& output : stage.outputs) {
       if (output.sign)
@@ -156,7 +154,7 @@ class FloatFirstPrinter {
     // Also where the stage has no sign: a later stage may take values over.
     print_conversion("_f", from_double ? "Bounded<float>" : "");
     line(fmt::format("    const auto found = filter::{}{}({}{});", stage.name, filter_has_range_ ? "_in_range" : "",
-                     names(from_double ? "_f" : ""), several_ ? ", state.in_float" : ""));
+                     names(from_double ? "_f" : ""), several_ ? ", state.of_filter" : ""));
     if (!all_definite.empty()) {
       line(fmt::format("    if ({}) {{\n      {}_result result;", all_definite, stage.name));
       for (const dsl::Output& output : stage.outputs) {
@@ -169,16 +167,9 @@ class FloatFirstPrinter {
     print_conversion("_d", from_double ? "" : "double");
     const std::string arguments = names(from_double ? "" : "_d");
     const std::string suffix = has_range_ ? "_in_range" : "";
-    if (several_ && last) line("    typename in_double::State known = state.in_double;");
-    for (std::size_t earlier = 0; earlier < s; ++earlier) {
-      line(fmt::format("    if (state.stages_in_double <= {}) in_double::{}{}({}, {});", earlier,
-                       predicate_.stages[earlier].name, suffix, arguments, last ? "known" : "state.in_double"));
-    }
-    if (several_ && !last) line(fmt::format("    state.stages_in_double = {};", s + 1));
+    if (several_) line("    in_double::State none{};");
     line(fmt::format("    return in_double::{}{}({}{});\n  }}", stage.name, suffix, arguments,
-                     !several_ ? ""
-                     : last    ? ", known"
-                               : ", state.in_double"));
+                     several_ ? ", none" : ""));
   }
 
   const dsl::Predicate& predicate_;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <optional>
 #include <random>
 #include <sstream>
@@ -119,8 +120,28 @@ std::optional<Row> row_near_zero(const dsl::Predicate& predicate, const std::vec
   return std::nullopt;
 }
 
-std::vector<Enclosure> exact_values(const dsl::Predicate& predicate, const Row& row) {
-  return dsl::evaluate<Enclosure>(predicate.graph, slots_of<Enclosure>(row));
+/// The exact inputs as generated code has them: groups that are normalized (codegen/normalize.h) times their powers of
+/// two.
+std::vector<Enclosure> exact_inputs(const dsl::Predicate& predicate, const Row& row, Precision precision) {
+  std::vector<Enclosure> slots = slots_of<Enclosure>(row);
+  std::map<int, double> largest;
+  const auto group = [&](std::size_t i) {
+    return predicate.parameters[static_cast<std::size_t>(predicate.slots[i].parameter)].normalized;
+  };
+  for (std::size_t i = 0; i < row.size(); ++i) largest[group(i)] = std::max(largest[group(i)], std::abs(row[i]));
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (group(i) < 0) continue;
+    const double most = largest[group(i)];
+    const double scale = precision == Precision::binary64
+                             ? dsl::normalizer_of(most)
+                             : static_cast<double>(dsl::normalizer_of(static_cast<float>(most)));
+    slots[i] = slots[i] * Enclosure(scale);
+  }
+  return slots;
+}
+
+std::vector<Enclosure> exact_values(const dsl::Predicate& predicate, const Row& row, Precision precision) {
+  return dsl::evaluate<Enclosure>(predicate.graph, exact_inputs(predicate, row, precision));
 }
 
 }  // namespace
@@ -182,13 +203,14 @@ Samples samples(const dsl::Predicate& predicate, std::vector<Row> rows, Precisio
     if (!predicate.stages[all[place].stage].outputs[all[place].output].sign) continue;
     const auto row = row_near_zero(predicate, rows, all[place], inputs, random);
     if (!row) continue;
-    const Enclosure exact = exact_values(predicate, *row)[static_cast<std::size_t>(node_at(predicate, all[place]))];
+    const Enclosure exact =
+        exact_values(predicate, *row, inputs)[static_cast<std::size_t>(node_at(predicate, all[place]))];
     if (exact.is_exact()) result.near_zero.push_back({*row, place, exact.sign()});
   }
   if (rows.size() > static_cast<std::size_t>(count)) rows.resize(static_cast<std::size_t>(count));
   result.rows = std::move(rows);
   for (const Row& row : result.rows) {
-    const std::vector<Enclosure> values = exact_values(predicate, row);
+    const std::vector<Enclosure> values = exact_values(predicate, row, inputs);
     std::vector<Enclosure>& of_row = result.exact.emplace_back();
     for (const Place& place : all) of_row.push_back(values[static_cast<std::size_t>(node_at(predicate, place))]);
   }

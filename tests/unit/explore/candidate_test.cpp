@@ -66,6 +66,17 @@ TEST(Candidates, EveryChoiceMakesADifferenceWhereItCan) {
   }
 }
 
+TEST(Candidates, DeCasteljauInterpolatesNTimes) {
+  const auto all = candidates(lowerings("predicate f(scalar k[3], scalar t) { sign bernstein(k) at t as y }\n"),
+                              Precision::binary64);
+  const OperationCount casteljau = find(all, "float-casteljau").values(0);
+  EXPECT_EQ(casteljau.products, 6) << "two a point, three points in two levels";
+  EXPECT_EQ(casteljau.sums, 3 + 1) << "one a point, and 1 - t";
+  const OperationCount horner = find(all, "float").values(0);
+  EXPECT_EQ(horner.sums, 2 + 1);
+  EXPECT_LT(horner.products, casteljau.products);
+}
+
 TEST(Candidates, StaticWhereRangesAllowIt) {
   EXPECT_EQ(find(candidates(lowerings(ranged), Precision::binary64), "static").name(), "static");
 }

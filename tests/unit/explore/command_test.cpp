@@ -62,7 +62,7 @@ TEST(ExploreCommand, NamesWhatItDoesNotKnow) {
   refused("orientation.pred --format xml", "unknown value 'xml'");
   refused("orientation.pred --emit tight-magic -o out", "`orientation` has no scheme 'tight-magic' (it has tight, ");
   refused("orientation.pred --tests", "--tests belongs to --emit");
-  refused("orientation.pred --no-time -o orientation.pred/table.txt", "cannot write");
+  refused("orientation.pred --no-time -o orientation.pred/chart.svg", "chart.svg");
   refused("orientation.pred --no-time --inputs missing.csv", "cannot read missing.csv");
   folder.write("wrong.pred", "predicate f(scalar a, vec3 v) { sign a + v as y }\n");
   refused("wrong.pred --no-time", "wrong.pred:1:", 1);
@@ -77,10 +77,22 @@ TEST(ExploreCommand, SaysThatThereIsNoCompiler) {
   const Outcome none = explore(folder, "orientation.pred", "CXX= PATH=");
   EXPECT_EQ(none.status, 2);
   EXPECT_TRUE(has(none.errors, "no C++ compiler")) << none.errors;
-  const Outcome broken = explore(folder, "orientation.pred -o out.txt", "CXX=false");
+  const Outcome broken = explore(folder, "orientation.pred -o out.svg", "CXX=false");
   EXPECT_EQ(broken.status, 2);
   EXPECT_TRUE(has(broken.errors, "cannot compile the schemes")) << broken.errors;
-  EXPECT_FALSE(fs::exists(folder.path() / "out.txt"));
+  EXPECT_FALSE(fs::exists(folder.path() / "out.svg"));
+}
+
+TEST(ExploreCommand, DrawsAChart) {
+  const ScratchFolder folder;
+  folder.write("orientation.pred", orientation);
+  const Outcome run = explore(folder, "orientation.pred --no-time -o chart.svg");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const std::string chart = read_text(folder.path() / "chart.svg");
+  for (const char* part : {"tight-fma", "safe", "interval", "operations"}) EXPECT_TRUE(has(chart, part)) << part;
+  const Outcome refused = explore(folder, "orientation.pred --no-time -o chart.gif");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.output, "");
 }
 
 TEST(ExploreCommand, ReadsInputs) {

@@ -104,6 +104,20 @@ TEST(Exploration, ABoundThatIsTooSmallIsNoticed) {
   EXPECT_FALSE(exploration.entries[0].on_front);
 }
 
+/// Normalized inputs, and alternatives that are chosen at run time.
+TEST(Exploration, KnowsEveryOperationOfTheLanguage) {
+  const Exploration exploration = explored(
+      "predicate f(moving point2 p, a, b, scalar s) {\n"
+      "  normalize p, a, b\n"
+      "  sign either(det(b - a, p - a), det(b - p, a - p) * -1) as area\n"
+      "}\n",
+      false);
+  for (const Entry& entry : exploration.entries) {
+    EXPECT_TRUE(entry.accuracy.sound) << entry.candidate.name();
+    EXPECT_FALSE(entry.candidate.scheme.float_first);
+  }
+}
+
 TEST(Timing, CompilesAndRunsEverySchemeOfAPredicate) {
   std::string error;
   if (find_compiler(error).empty()) GTEST_SKIP() << error;
