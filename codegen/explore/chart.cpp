@@ -16,8 +16,7 @@ constexpr std::uint32_t front_colour = 0x909090;
 constexpr BoundMode bounds[] = {BoundMode::tight, BoundMode::safe, BoundMode::fixed, BoundMode::interval};
 
 bool is_shown(const Exploration& exploration, const Entry& entry) {
-  return !entry.dismissed && std::isfinite(entry.accuracy.size) && entry.accuracy.size > 0 &&
-         exploration.cost(entry) > 0;
+  return !entry.dismissed && is_of_use(exploration, entry) && entry.accuracy.size > 0 && exploration.cost(entry) > 0;
 }
 
 Datum datum(const Exploration& exploration, const Entry& entry) {

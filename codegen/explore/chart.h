@@ -7,7 +7,7 @@
 namespace tightrope::codegen::explore {
 
 /// Time (operations, if nothing was timed) against size of bound: one series a bound, labels for the front and for the
-/// defaults. Schemes without a bound or with an infinite one have no place; of those the caption tells.
+/// defaults. Schemes without a bound, or with one that is of no use on these inputs, have no place.
 charts::Chart exploration_chart(const Exploration& exploration);
 
 }  // namespace tightrope::codegen::explore

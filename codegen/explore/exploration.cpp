@@ -50,6 +50,10 @@ double Exploration::cost(const Entry& entry) const {
   return timed ? entry.time.median : entry.candidate.operations(stages.size() - 1);
 }
 
+bool is_of_use(const Exploration& exploration, const Entry& entry) {
+  return std::isfinite(entry.accuracy.size) && (exploration.near_zero == 0 || entry.accuracy.undecided < 1);
+}
+
 void mark_front(Exploration& exploration) {
   std::vector<Entry*> eligible;
   std::vector<charts::Cost> costs;
@@ -59,7 +63,7 @@ void mark_front(Exploration& exploration) {
     // Operations of a filter say nothing of the cost of what it leaves open.
     const bool comparable = exploration.timed || !entry.candidate.filter;
     if (entry.candidate.scheme.bound == BoundMode::none || !entry.accuracy.sound || !has_cost || !comparable) continue;
-    if (!std::isfinite(entry.accuracy.size)) continue;
+    if (!is_of_use(exploration, entry)) continue;
     eligible.push_back(&entry);
     costs.push_back({exploration.cost(entry), entry.accuracy.size});
   }
@@ -80,6 +84,7 @@ Exploration explore(const Lowerings& lowerings, const std::vector<Row>& rows, co
   result.rows = measured.rows.size();
   result.near_zero = measured.near_zero.size();
   for (Candidate& candidate : candidates(lowerings, request.timing.inputs)) {
+    if (candidate.scheme.recomputes && last_stage == 0) continue;  // the first stage has nothing to recompute
     result.entries.push_back({.candidate = std::move(candidate)});
   }
   const Candidate& first = result.entries.front().candidate;

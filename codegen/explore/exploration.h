@@ -48,8 +48,11 @@ struct ExplorationRequest {
 Exploration explore(const Lowerings& lowerings, const std::vector<Row>& rows, const ExplorationRequest& request,
                     std::string& error);
 
+/// Whether the bounds are finite and decide anything at all near zero.
+bool is_of_use(const Exploration& exploration, const Entry& entry);
+
 /// Marks the entries that no other beats: cheaper without a larger bound, or a smaller bound at no higher cost. Schemes
-/// without a bound are never on the front; of equals the first is.
+/// without a bound, or with one that is of no use on these inputs, are never on the front; of equals the first is.
 void mark_front(Exploration& exploration);
 
 /// A table of them, and which are on the front.
