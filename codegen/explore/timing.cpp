@@ -25,9 +25,9 @@ constexpr std::size_t most_rows = 512;
 
 /// Reads rows, times every function in turn: prints "NUMBER NANOSECONDS" a line.
 constexpr std::string_view main_code = R"(
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <vector>
 
 static double now() {
