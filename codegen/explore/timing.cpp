@@ -84,27 +84,19 @@ bool has_fma() {
 #endif
 }
 
-/// The declarations of the arguments of a call and their list, read from the row `x`.
-std::pair<std::string, std::string> call_arguments(const dsl::Predicate& predicate, const std::string& real) {
-  std::string declarations;
+/// The arguments of a call, read from the row `x` where they lie.
+std::string call_arguments(const dsl::Predicate& predicate, const std::string& real) {
   std::string list;
   std::size_t offset = 0;
-  std::size_t number = 0;
   for (const Argument& a : arguments(predicate)) {
     if (!list.empty()) list += ", ";
-    if (!a.bounded) {
-      list += a.pointer ? fmt::format("x + {}", offset) : fmt::format("x[{}]", offset);
-    } else {
-      std::string pairs;
-      for (std::size_t i = 0; i < a.slots.size(); ++i) {
-        pairs += fmt::format("{}{{x[{}], x[{}]}}", i == 0 ? "" : ", ", offset + 2 * i, offset + 2 * i + 1);
-      }
-      declarations += fmt::format("    const tightrope::Bounded<{}> b{}[] = {{{}}};\n", real, number, pairs);
-      list += fmt::format("b{}{}", number++, a.pointer ? "" : "[0]");
-    }
+    const std::string place = fmt::format("x + {}", offset);
+    const std::string pointer =
+        a.bounded ? fmt::format("reinterpret_cast<const tightrope::Bounded<{}>*>({})", real, place) : place;
+    list += a.pointer ? pointer : fmt::format("*({})", pointer);
     offset += a.slots.size() * (a.bounded ? 2 : 1);
   }
-  return {declarations, list};
+  return list;
 }
 
 std::size_t stride(const dsl::Predicate& predicate) {
@@ -149,17 +141,17 @@ std::string timed_code(const Candidate& candidate, std::size_t number, const Tim
   text += candidate.filter ? print_float_first(candidate, name, request.inputs)
                            : print_predicate({&predicate, &candidate.bounded}, options);
   text += "}  // namespace tightrope::generated\nTIGHTROPE_PRECISE_END\n";
-  const auto [declarations, list] = call_arguments(predicate, real);
+  const std::string list = call_arguments(predicate, real);
   const bool has_range = std::any_of(predicate.parameters.begin(), predicate.parameters.end(),
                                      [](const dsl::Parameter& p) { return p.range.has_value(); });
   const std::string code = fmt::format("tightrope::generated::{}<tightrope::{}, {}>", name, tag(options.mode), real);
   const bool several = predicate.stages.size() > 1;
   text += fmt::format("\nlong {}(const {}* rows, long count) {{\n  long definite = 0;\n", name, real);
   text += fmt::format(
-      "  for (long i = 0; i < count; ++i) {{\n    const {}* x = rows + i * {};\n{}"
+      "  for (long i = 0; i < count; ++i) {{\n    const {}* x = rows + i * {};\n"
       // One call after the other: the loop is not to be vectorised.
       "    __asm__ volatile(\"\" : : : \"memory\");\n",
-      real, stride(predicate), declarations);
+      real, stride(predicate));
   if (several) text += fmt::format("    {}::State state;\n", code);
   for (std::size_t s = 0; s <= request.last_stage; ++s) {
     const dsl::Stage& stage = predicate.stages[s];
