@@ -26,6 +26,7 @@ Subcommand add_stages(CLI::App& app);
 Subcommand add_generate(CLI::App& app);
 Subcommand add_exact(CLI::App& app);
 Subcommand add_stability(CLI::App& app);
+Subcommand add_fit(CLI::App& app);
 
 /// "tightrope-ccd: error: ..." on stderr; gives bad_usage back.
 int fail(std::string_view message);

@@ -53,8 +53,9 @@ int run(int argc, const char* const* argv) {
   CLI::App app("Continuous collision detection with derived error bounds", "tightrope-ccd");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("tightrope-ccd ") + TIGHTROPE_VERSION);
-  const std::vector<Subcommand> commands = {add_methods(app), add_evaluate(app), add_classify(app), add_toi(app),
-                                            add_stages(app),  add_generate(app), add_exact(app),    add_stability(app)};
+  const std::vector<Subcommand> commands = {add_methods(app), add_evaluate(app),  add_classify(app),
+                                            add_toi(app),     add_stages(app),    add_generate(app),
+                                            add_exact(app),   add_stability(app), add_fit(app)};
   const std::string_view first = argc > 1 ? argv[1] : "-";
   const auto called = [&](const Subcommand& command) { return command.app->get_name() == first; };
   if (!first.starts_with('-') && std::none_of(commands.begin(), commands.end(), called)) {

@@ -142,8 +142,9 @@ std::array<Sheet, 2> random_sheets(Random& random) {
 
 class ClothFold final : public SceneGenerator {
  public:
-  ClothFold(Kind kind, std::size_t queries, std::uint64_t seed)
+  ClothFold(Kind kind, std::size_t queries, std::uint64_t seed, const ClothVariant& variant)
       : kind_(kind),
+        variant_(variant),
         steps_(std::clamp<std::size_t>(queries / least_per_step, 1, frames)),
         per_step_((queries + steps_ - 1) / steps_),
         random_(seed),
@@ -169,6 +170,7 @@ class ClothFold final : public SceneGenerator {
   void write(const Pair& pair, Out out) const;
 
   Kind kind_;
+  ClothVariant variant_;
   std::size_t steps_;     ///< frames of a take that are looked at, evenly spread over it
   std::size_t per_step_;  ///< most queries taken from one of them
   Random random_;
@@ -182,11 +184,15 @@ class ClothFold final : public SceneGenerator {
 
 void ClothFold::place(double time, std::vector<Point>& positions) const {
   positions.clear();
+  const Point place = variant_.distance * Point{1, 1.5, 0.25};
   for (const Sheet& sheet : sheets_) {
+    constexpr double time_at_rest = 0.5;
+    const double moment = variant_.obstacle && &sheet == &sheets_[1] ? time_at_rest : time;
     for (Index i = 0; i < side; ++i) {
       for (Index j = 0; j < side; ++j) {
-        positions.push_back(
-            sheet.position(static_cast<double>(i) / (side - 1), static_cast<double>(j) / (side - 1), time));
+        const double u = static_cast<double>(i) / (side - 1);
+        const double v = static_cast<double>(j) / (side - 1);
+        positions.push_back(place + variant_.size * sheet.position(u, v, moment));
       }
     }
   }
@@ -228,6 +234,15 @@ std::vector<ClothFold::Pair> ClothFold::surviving_pairs() const {
       return pair.first >= pair.second || share_vertex(mesh_.edges[pair.first], mesh_.edges[pair.second]);
     });
   }
+  if (variant_.obstacle) {  // the second feature is the obstacle's, the first is not
+    const auto sheet_of = [](Index vertex) { return vertex / (side * side); };
+    std::erase_if(pairs, [&](const Pair& pair) {
+      if (kind_ == Kind::vertex_face) {
+        return sheet_of(pair.first) == 1 || sheet_of(mesh_.faces[pair.second][0]) == 0;
+      }
+      return sheet_of(mesh_.edges[pair.first][0]) == 1 || sheet_of(mesh_.edges[pair.second][0]) == 0;
+    });
+  }
   return pairs;
 }
 
@@ -235,6 +250,10 @@ std::vector<ClothFold::Pair> ClothFold::surviving_pairs() const {
 void ClothFold::next_step() {
   if (step_ == steps_) {
     sheets_ = random_sheets(random_);
+    if (variant_.obstacle) {  // the first sheet takes over the second one's drift
+      sheets_[0].drift = -1 * sheets_[1].drift;
+      sheets_[1].drift = {};
+    }
     step_ = 0;
   }
   const std::size_t frame = (2 * step_ + 1) * frames / (2 * steps_);
@@ -272,8 +291,9 @@ void ClothFold::write(const Pair& pair, Out out) const {
 
 }  // namespace
 
-std::unique_ptr<SceneGenerator> generate_cloth_fold(Kind kind, std::size_t queries, std::uint64_t seed) {
-  return std::make_unique<ClothFold>(kind, queries, seed);
+std::unique_ptr<SceneGenerator> generate_cloth_fold(Kind kind, std::size_t queries, std::uint64_t seed,
+                                                    const ClothVariant& variant) {
+  return std::make_unique<ClothFold>(kind, queries, seed, variant);
 }
 
 }  // namespace tightrope::ccd

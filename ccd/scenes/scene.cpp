@@ -11,7 +11,7 @@
 namespace tightrope::ccd {
 namespace {
 
-constexpr std::array<SceneInfo, 29> all_scenes = {{
+constexpr std::array<SceneInfo, 32> all_scenes = {{
     {Scene::random, "random", "coordinates uniform in [-1, 1]"},
     {Scene::grazing, "grazing", "a vertex or an edge passes within 1e-16 .. 1e-3 of an edge, a vertex or an end"},
     {Scene::cloth_fold, "cloth-fold", "two folding sheets, pairs that survive a broad phase"},
@@ -43,6 +43,9 @@ constexpr std::array<SceneInfo, 29> all_scenes = {{
     {Scene::displacements, "displacements", "points that move by 1e-300 .. 1e150 past features of size 1", true},
     {Scene::offsets, "offsets", "the families above at 1e2 .. 1e8 lengths from the origin", true},
     {Scene::degenerate_families, "degenerate-families", "a mixture of coplanar .. offsets", true},
+    {Scene::cloth_obstacle, "cloth-obstacle", "a folding sheet passes through a sheet at rest, after a broad phase"},
+    {Scene::cloth_millimetre, "cloth-millimetre", "cloth-fold with sheets of 10 mm, in metres"},
+    {Scene::terrain, "terrain", "cloth-obstacle with sheets of 1 km, in metres, 10 km from the origin"},
 }};
 
 Query static_lattice_query(Random& random) {
@@ -86,6 +89,9 @@ Query make_query(Scene scene, Kind kind, Random& random) {
     case Scene::grazing:
       return grazing_query(kind, random);
     case Scene::cloth_fold:
+    case Scene::cloth_obstacle:
+    case Scene::cloth_millimetre:
+    case Scene::terrain:
       break;  // not query by query
     case Scene::lattice:
       return lattice_query(random, 4);
@@ -129,6 +135,14 @@ Query make_query(Scene scene, Kind kind, Random& random) {
   return {};
 }
 
+std::optional<ClothVariant> cloth_variant(Scene scene) {
+  if (scene == Scene::cloth_fold) return ClothVariant{};
+  if (scene == Scene::cloth_obstacle) return ClothVariant{.size = 1, .distance = 0, .obstacle = true};
+  if (scene == Scene::cloth_millimetre) return ClothVariant{.size = 0.01, .distance = 0, .obstacle = false};
+  if (scene == Scene::terrain) return ClothVariant{.size = 1000, .distance = 10'000, .obstacle = true};
+  return std::nullopt;
+}
+
 class QueryByQuery final : public SceneGenerator {
  public:
   QueryByQuery(Scene scene, Kind kind, std::uint64_t seed) : scene_(scene), kind_(kind), random_(seed) {}
@@ -170,7 +184,9 @@ std::string_view name(Scene scene) {
 
 std::unique_ptr<SceneGenerator> generate(Scene scene, Kind kind, std::size_t queries, std::uint64_t seed) {
   const auto stream = 2 * static_cast<std::uint64_t>(scene) + static_cast<std::uint64_t>(kind);
-  if (scene == Scene::cloth_fold) return generate_cloth_fold(kind, queries, derived_seed(seed, stream));
+  if (const auto variant = cloth_variant(scene)) {
+    return generate_cloth_fold(kind, queries, derived_seed(seed, stream), *variant);
+  }
   return std::make_unique<QueryByQuery>(scene, kind, derived_seed(seed, stream));
 }
 

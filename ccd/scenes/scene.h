@@ -42,6 +42,9 @@ enum class Scene {
   displacements,
   offsets,
   degenerate_families,
+  cloth_obstacle,
+  cloth_millimetre,
+  terrain,
 };
 
 struct SceneInfo {
@@ -68,7 +71,7 @@ class SceneGenerator {
   virtual void fill(std::span<double> points) = 0;
 };
 
-/// `queries`: how many will be asked for; cloth-fold spreads them over the motion.
+/// `queries`: how many will be asked for; cloth-fold and its variants spread them over the motion.
 std::unique_ptr<SceneGenerator> generate(Scene scene, Kind kind, std::size_t queries, std::uint64_t seed);
 
 }  // namespace tightrope::ccd

@@ -37,7 +37,8 @@ RULES = {
     "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],
     "ccd/stability/": [r"ccd/(?:stability|scenes|oracle|impact)/.*", API, r"ccd/query\.h", r"ccd/methods/bsc_exact\.h",
                        r"codegen/charts/.*", r"fmt/.*", r"nlohmann/.*"],
-    "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io|stability)/.*", API, r"ccd/query\.h",
+    "ccd/fit/": [r"ccd/fit/.*", API, r"fmt/.*", RUNTIME, r"(?:unit_)?look\.(?:safe|static)\.(?:double|float)\.h"],
+    "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io|stability|fit)/.*", API, r"ccd/query\.h",
                      r"ccd/impact/(?:query|stage)\.h", r"codegen/charts/.*", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", POSIX],
 }
 INCLUDE_ROOTS = ["", "ccd", "runtime"]
