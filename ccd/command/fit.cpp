@@ -17,6 +17,7 @@ namespace tightrope::ccd {
 namespace {
 
 constexpr std::size_t sample_size = 1 << 17;
+constexpr int missed = 1;  ///< exit status
 constexpr const char* report_file = "fit.txt";
 
 struct FitOptions {
@@ -69,7 +70,7 @@ std::optional<std::string> write_folder(const FitOptions& options, const std::ve
   return folder.commit();
 }
 
-/// Builds the folder and runs its check on the samples; its output, or what is wrong.
+/// Builds the folder and runs its check on the samples; the check prints what it finds.
 int build_and_check(const FitOptions& options, const std::vector<SceneSample>& samples) {
   const FitBuild build(options.output, options.name, options.prefix);
   if (auto wrong = build.run_build()) return fail(*wrong);
@@ -80,7 +81,9 @@ int build_and_check(const FitOptions& options, const std::vector<SceneSample>& s
     if (auto wrong = write(path, bytes)) return fail(*wrong);
     arguments.insert(arguments.end(), {std::string(name(sample.kind())), path.string()});
   }
-  return build.run_check(arguments) ? success : fail("the fitted queries do not answer as the full ones");
+  if (build.run_check(arguments)) return success;
+  fail("the fitted queries miss contacts");
+  return missed;
 }
 
 int run(const FitOptions& options) {

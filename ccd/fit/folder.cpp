@@ -151,7 +151,7 @@ std::string build(const std::string& name, const std::vector<Choice>& choices) {
                     name);
 }
 
-/// {0} the fit's name, {1} the calls of compare(). No other braces but doubled ones.
+/// {0} the fit's name, {1} the calls of compare(), {2} the include of its header. No other braces but doubled ones.
 constexpr std::string_view check_program =
     R"(/// {0}_check KIND FILE ...: the fitted queries against the full ones on the queries in FILE, 24 numbers of type double
 /// each, as this machine has them in memory. Exit status 1 if the fit misses a contact.
@@ -163,7 +163,7 @@ constexpr std::string_view check_program =
 #include <fstream>
 #include <vector>
 
-#include "{0}.h"
+{2}
 
 namespace {{
 
@@ -253,7 +253,7 @@ std::string check(const std::string& name, const std::vector<Choice>& choices) {
         "    }}\n",
         name, w.id, ccd::name(choice.kind), w.real);
   }
-  return fmt::format(fmt::runtime(check_program), name, calls);
+  return fmt::format(fmt::runtime(check_program), name, calls, fmt::format("#include \"{}.h\"", name));
 }
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }

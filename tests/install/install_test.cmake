@@ -59,3 +59,7 @@ run(${prefix}/bin/tightrope compile ${SCRATCH}/projects/first_predicate/side_of_
     -o ${SCRATCH}/by_hand)
 expect_no_paths(${prefix}/ ${SCRATCH}/by_hand/CMakeLists.txt)  # it uses the runtime that was installed
 build_and_test(${SCRATCH}/by_hand ${SCRATCH}/build/by_hand 1)
+
+# A fit writes, builds and checks code of its own, with the Tightrope beside it.
+run(${prefix}/bin/tightrope-ccd generate cloth-obstacle --queries 300 -o ${SCRATCH}/obstacle)
+run(${prefix}/bin/tightrope-ccd fit ${SCRATCH}/obstacle --need toi --build -o ${SCRATCH}/fit)

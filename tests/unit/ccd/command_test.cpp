@@ -18,7 +18,7 @@ using nlohmann::json;
 TEST(Command, HelpAndVersionAreAnswersNotErrors) {
   const ScratchDirectory scratch;
   for (const std::string command :
-       {"methods", "evaluate", "classify", "toi", "stages", "generate", "exact", "stability"}) {
+       {"methods", "evaluate", "classify", "toi", "stages", "generate", "exact", "stability", "fit"}) {
     const Outcome help = run_command(scratch, {command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_EQ(help.err, "") << command;
