@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::size_t numbers_per_query = 24;
 
-constexpr std::size_t block = 2048;  ///< queries: a tenth of a millisecond, so that few passes are interrupted
-
 /// Decides `count` queries of the sample from `first` on.
 using Pass = std::function<void(std::size_t first, std::size_t count)>;
 
@@ -22,9 +20,14 @@ std::vector<double> medians(const std::vector<Pass>& passes, std::size_t count) 
   constexpr double time_of_all = 2e9;
   constexpr int least_rounds = 5;
   constexpr int most_rounds = 201;
+  const auto begin = Clock::now();
+  const std::size_t few = std::min<std::size_t>(count, 256);
+  passes.front()(0, few);
+  const double slow = std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / static_cast<double>(few);
+  // Passes of a tenth of a millisecond or less: few of them are interrupted by whatever else the machine does.
+  const auto block = static_cast<std::size_t>(std::clamp(1e5 / slow, 16.0, 2048.0));
   const std::size_t blocks = (count + block - 1) / block;
   std::vector<std::vector<double>> times(passes.size() * blocks);
-  const auto begin = Clock::now();
   for (int round = 0; round < most_rounds; ++round) {
     const double spent = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
     if (round >= least_rounds && spent > time_of_all) break;

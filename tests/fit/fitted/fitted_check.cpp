@@ -47,7 +47,9 @@ std::size_t compare(Kind kind, const char* path, void (*fitted)(const Real*, std
   std::vector<unsigned char> full_answers(count), answers(count);
   // Both take turns at blocks of queries: few passes are interrupted by whatever else the machine does. Every round goes
   // through all blocks: branch prediction cannot learn a block by heart.
-  constexpr std::size_t block = 2048;
+  const std::size_t few = std::min<std::size_t>(count, 256);
+  const double slow = nanoseconds([&] { fitted(fitted_points.data(), few, answers.data()); }) / static_cast<double>(few);
+  const auto block = static_cast<std::size_t>(std::clamp(1e5 / slow, 16.0, 2048.0));
   const std::size_t blocks = (count + block - 1) / block;
   std::vector<std::vector<double>> full_times(blocks), times(blocks);
   for (int round = 0; round < 31; ++round) {

@@ -43,7 +43,7 @@ TEST(Command, BadUsageIsOneLineThatTellsWhatIsAccepted) {
     std::vector<std::string> arguments;
     std::string message;
   };
-  const std::string commands = "commands: methods, evaluate, classify, toi, stages, generate, exact, stability";
+  const std::string commands = "commands: methods, evaluate, classify, toi, stages, generate, exact, stability, fit";
   std::string methods;
   for (const MethodInfo& info : ccd::methods()) {
     methods += methods.empty() ? std::string(info.name) : ", " + std::string(info.name);

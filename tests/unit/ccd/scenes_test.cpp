@@ -127,6 +127,9 @@ TEST(Scenes, ASeedGivesTheSameQueriesOnEveryMachine) {
       {Scene::displacements, 0xb83d5480f55f1c01, 0x69042699365b40b3},
       {Scene::offsets, 0xdd2a19299856a247, 0x2ffbdd4b0c3eb68d},
       {Scene::degenerate_families, 0x500b5cec2fe3917a, 0x08126d1df8329f5b},
+      {Scene::cloth_obstacle, 0x2e6f1e6cdd35a71b, 0x61facba09012ab39},
+      {Scene::cloth_millimetre, 0x8e05c31b25be62a3, 0x698c87fc2a5f9b8c},
+      {Scene::terrain, 0x7baf2534dc57a0a1, 0x68c232c187988e0c},
   };
   for (const Expected& e : expected) {
     EXPECT_EQ(fingerprint(queries(e.scene, Kind::vertex_face, 200, 42)), e.vertex_face) << name(e.scene);
