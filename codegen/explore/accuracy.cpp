@@ -97,12 +97,12 @@ Accuracy measure_accuracy(const Candidate& candidate, const std::vector<std::vec
       const Enclosure& exact = samples.exact[r][i];
       const auto& [value, bound] = own[i];
       if (bounded && exact.is_undefined() && decided(own[i])) accuracy.sound = false;
-      if (!exact.is_number() || !std::isfinite(value)) continue;
+      if (!exact.is_number()) continue;
       if (reference[r][i].bound > 0) {
         const double size = finest[i].bound / reference[r][i].bound;
-        sizes.push_back(std::isnan(size) ? INFINITY : size);
+        sizes.push_back(std::isfinite(finest[i].value) && !std::isnan(size) ? size : INFINITY);
       }
-      if (!std::isfinite(bound)) continue;
+      if (!std::isfinite(value) || !std::isfinite(bound)) continue;
       const DyadicRatio error = abs(Enclosure(value) - exact).lower();
       if (bounded && error > DyadicRatio(bound)) accuracy.sound = false;
       if (error.sign() != 0) ratios.push_back(bound / error.to_double());
@@ -117,7 +117,7 @@ Accuracy measure_accuracy(const Candidate& candidate, const std::vector<std::vec
   }
   if (bounded && wrong > 0) accuracy.sound = false;
   const double total = std::max<double>(1, static_cast<double>(samples.near_zero.size()));
-  accuracy.size = quantile(sizes, 0.5);
+  accuracy.size = sizes.empty() ? 1 : quantile(sizes, 0.5);  // no bounds but zeros: as good as the reference
   accuracy.median_ratio = quantile(ratios, 0.5);
   accuracy.p99_ratio = quantile(ratios, 0.99);
   accuracy.undecided = undecided / total;

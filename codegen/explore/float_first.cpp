@@ -21,8 +21,12 @@ FloatFilter float_filter(const dsl::Predicate& predicate, BoundMode mode, Precis
 }
 
 bool admits_float_first(const dsl::Predicate& predicate) {
+  const auto has_sign = [](const dsl::Stage& stage) {
+    return std::any_of(stage.outputs.begin(), stage.outputs.end(), [](const dsl::Output& o) { return o.sign; });
+  };
   return std::none_of(predicate.parameters.begin(), predicate.parameters.end(),
-                      [](const dsl::Parameter& p) { return p.bounded || p.normalized >= 0; });
+                      [](const dsl::Parameter& p) { return p.bounded || p.normalized >= 0; }) &&
+         std::all_of(predicate.stages.begin(), predicate.stages.end(), has_sign);
 }
 
 RoundedInput rounded_input(double x) {

@@ -25,8 +25,9 @@ struct RoundedInput {
 };
 RoundedInput rounded_input(double x);
 
-/// Whether a predicate can have such a filter: none of its inputs comes with an error of its own, nor is
-/// any normalized, by powers of two that would be others in single precision.
+/// Whether a predicate can have such a filter: none of its inputs comes with an error of its own, nor is any
+/// normalized, by powers of two that would be others in single precision; and every stage has signs that say whether it
+/// is settled.
 bool admits_float_first(const dsl::Predicate& predicate);
 
 /// The filter under the name NAME_filter, the predicate in double as NAME_in_double, and NAME itself with the interface

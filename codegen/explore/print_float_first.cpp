@@ -151,19 +151,14 @@ class FloatFirstPrinter {
       if (output.sign)
         all_definite += fmt::format("{}definite(found.{})", all_definite.empty() ? "" : " && ", output.name);
     }
-    // Also where the stage has no sign: a later stage may take values over.
     print_conversion("_f", from_double ? "Bounded<float>" : "");
     line(fmt::format("    const auto found = filter::{}{}({}{});", stage.name, filter_has_range_ ? "_in_range" : "",
                      names(from_double ? "_f" : ""), several_ ? ", state.of_filter" : ""));
-    if (!all_definite.empty()) {
-      line(fmt::format("    if ({}) {{\n      {}_result result;", all_definite, stage.name));
-      for (const dsl::Output& output : stage.outputs) {
-        line(fmt::format("      widen(found.{0}, result.{0});", output.name));
-      }
-      line("      return result;\n    }");
-    } else {
-      line("    static_cast<void>(found);");
+    line(fmt::format("    if ({}) {{\n      {}_result result;", all_definite, stage.name));
+    for (const dsl::Output& output : stage.outputs) {
+      line(fmt::format("      widen(found.{0}, result.{0});", output.name));
     }
+    line("      return result;\n    }");
     print_conversion("_d", from_double ? "" : "double");
     const std::string arguments = names(from_double ? "" : "_d");
     const std::string suffix = has_range_ ? "_in_range" : "";

@@ -214,10 +214,12 @@ TEST(FloatFirst, DecidesEasySignsInSinglePrecisionAndHardOnesInDouble) {
   EXPECT_GT(decided.value, decided.bound);
 }
 
-TEST(Candidates, APredicateWithBoundedInputsHasNoFloatFirst) {
-  const auto all =
-      candidates(lowerings("predicate f(bounded scalar x, scalar y) { sign x * y + y as z }\n"), Precision::binary64);
-  EXPECT_TRUE(std::none_of(all.begin(), all.end(), [](const Candidate& c) { return c.scheme.float_first; }));
+TEST(FloatFirst, NeedsExactInputsAndSigns) {
+  for (const char* text : {"predicate f(bounded scalar x, scalar y) { sign x * y + y as z }\n",
+                           "predicate f(scalar x, y) { value x * y + y as z }\n"}) {
+    const auto all = candidates(lowerings(text), Precision::binary64);
+    EXPECT_TRUE(std::none_of(all.begin(), all.end(), [](const Candidate& c) { return c.scheme.float_first; })) << text;
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/unit/explore/predicates.h"
@@ -102,6 +103,23 @@ TEST(Exploration, ABoundThatIsTooSmallIsNoticed) {
   exploration.entries.push_back({.candidate = weak, .accuracy = accuracy, .time = {}});
   mark_front(exploration);
   EXPECT_FALSE(exploration.entries[0].on_front);
+}
+
+/// A scheme that has no value where the reference has one is no better than it.
+TEST(Exploration, NoValueIsNoSmallBound) {
+  const Lowerings source = lowerings(cancelling);
+  const Candidate tight = candidates(source, Precision::binary64).front();
+  const Samples measured =
+      samples(source.written(), random_rows(source.written(), Precision::binary64, 50), Precision::binary64, 0);
+  Candidate broken = tight;
+  const dsl::NodeId nan = broken.bounded.graph.binary(dsl::Op::certain_nonzero, broken.bounded.graph.constant(0),
+                                                      broken.bounded.graph.constant(0));
+  for (OutputBound& output : broken.bounded.stages[0].outputs) {
+    for (BoundedNode& element : output.elements) element.value = nan;
+  }
+  const auto reference = compute_all(tight, measured.rows, 0);
+  EXPECT_EQ(measure_accuracy(tight, reference, measured, 0).size, 1);
+  EXPECT_EQ(measure_accuracy(broken, reference, measured, 0).size, INFINITY);
 }
 
 /// Normalized inputs, and alternatives that are chosen at run time.
