@@ -26,7 +26,9 @@ std::error_code make_directories(const fs::path& directory, std::vector<fs::path
     if (fs::create_directory(*d, error)) made.push_back(*d);
     if (error) return error;
   }
-  if (!directory.empty() && !fs::is_directory(directory)) return std::make_error_code(std::errc::not_a_directory);
+  if (!directory.empty() && !fs::is_directory(directory, error)) {
+    return error ? error : std::make_error_code(std::errc::not_a_directory);
+  }
   return {};
 }
 
@@ -54,7 +56,7 @@ std::string write_files(std::span<const TextFile> files) {
     std::string failure;
     if (const std::error_code error = make_directories(file.path.parent_path(), directories)) {
       failure = error.message();
-    } else if (fs::is_directory(file.path)) {
+    } else if (std::error_code ignored; fs::is_directory(file.path, ignored)) {
       failure = "is a directory";
     } else {
       temporary.push_back(file.path.string() + fmt::format(".{}.tmp", ::getpid()));

@@ -165,6 +165,20 @@ TEST(Command, BadUsageIsOneClearLineAndStatus2) {
   EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"file", "orient2d.pred"}));
 }
 
+/// The file system refuses to say anything about such a name.
+TEST(Command, NamesTooLongForTheFileSystemAreAnErrorLikeOthers) {
+  const ScratchFolder folder;
+  folder.write("orient2d.pred", orient2d);
+  const std::string name(300, 'x');
+  for (const std::string& arguments :
+       {"compile orient2d.pred -o " + name, "compile orient2d.pred -o out --depfile " + name}) {
+    const Outcome run = tightrope(folder, arguments);
+    EXPECT_EQ(run.status, 2) << run.errors;
+    EXPECT_TRUE(has(run.errors, "tightrope: error: cannot write " + name)) << run.errors;
+    EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"orient2d.pred"}));
+  }
+}
+
 TEST(Command, TestsDoNotReplaceAProjectOfTheUsersOwn) {
   const ScratchFolder folder;
   folder.write("orient2d.pred", orient2d);
