@@ -107,7 +107,7 @@ int Root::earlier_roots(const PartSigns& part) const {
   return sign_changes<4>({sign_of(cubic_->exact[0]), part[0], part[1], part[2]});
 }
 
-/// The sign of (this - x), x in (0, 1); if this is the only root in an interval, in that.
+/// The sign of (this - x), x in (0, 1); if this is the only root in the enclosure, x strictly inside of that.
 DefiniteSign Root::order(const PartSigns& part) const {
   if (count_ == 1) return part[2] * before_;
   const int earlier = earlier_roots(part);
@@ -235,7 +235,9 @@ DefiniteSign Root::sign(const Line& l) const {
   if (!opposite(a, b)) return a == DefiniteSign::zero ? b : a;
   const auto ends = generated::line_between<bound::exact, double>::evaluate_values(l.data(), lower_, upper_);
   const DefiniteSign at_lower = sign_of(ends.part[0]);
-  if (at_lower == sign_of(ends.part[1])) return at_lower;
+  const DefiniteSign at_upper = sign_of(ends.part[1]);
+  // This time is strictly inside: an end at which the line is zero, which may be another root, says nothing against it.
+  if (!opposite(at_lower, at_upper)) return at_lower == DefiniteSign::zero ? at_upper : at_lower;
   return order(zero_of(l)) * b;
 }
 

@@ -8,7 +8,7 @@
 namespace tightrope::ccd {
 
 /// Relative slack of the separation: features that come within (1 + separation_slack) times it may be reported.
-inline constexpr double separation_slack = 0x1p-30;
+inline constexpr double separation_slack = 0x1p-20;
 
 /// And absolute slack, for what floating point cannot tell: this times the largest difference between two of the points
 /// in a coordinate, at the ends of the step.

@@ -15,7 +15,8 @@
 /// lead towards the root, never over it. Half of that step leaves half of what the distance exceeds d by: if that
 /// cannot be proved, it is within rounding errors. As no width changes faster than the speed V, the half is (distance -
 /// d) / 2 V at least. So the search ends, after at most 2 V / (d slack) steps (in practice about ten), where the
-/// features are as near as is promised.
+/// features are as near as is promised; what is promised has room for a quarter of `separation_noise`, so that tiny
+/// separations end, too.
 ///
 /// Who includes this includes the generated header of its bound mode (separation.pred) first.
 
@@ -57,6 +58,7 @@ class Approach {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         start_[i][axis] = at_0(i)[axis] - at_0(0)[axis];
         end_[i][axis] = at_1(i)[axis] - at_1(0)[axis];
+        extent_ = std::max({extent_, std::fabs(start_[i][axis]), std::fabs(end_[i][axis])});
       }
     }
   }
@@ -174,7 +176,7 @@ class Approach {
   bool advance(Search& search) const {
     const Slab& at = search.at;
     const double excess = at.plane.distance - separation_;
-    if (!(excess > separation_ * separation_slack)) return false;
+    if (!(excess > separation_ * separation_slack + extent_ * (separation_noise / 4))) return false;
     const double direct = direct_step(at);
     if (!(direct > 0)) return false;
     double step = std::min(std::max(search.step, 4 * direct), (search.near - at.t) / 2);
@@ -209,6 +211,7 @@ class Approach {
   double separation_;
   Positions start_{};
   Positions end_{};
+  double extent_ = 0;  ///< at most the largest difference between two of the points in a coordinate
 };
 
 }  // namespace tightrope::ccd

@@ -29,7 +29,7 @@ struct ImpactOptions {
   /// Contacts after it do not count. Above 1 or NaN: 1; negative: no contact counts.
   double t_max = 1;
   /// In the coordinates' unit: coming within this distance counts as contact. `time` is a guarantee as before: they are
-  /// farther apart until then; and they come that near by time + tolerance, but for a slack: 2^-30 of the distance and
+  /// farther apart until then; and they come that near by time + tolerance, but for a slack: 2^-20 of the distance and
   /// 2^-47 of the query's extent. Negative: 0, contact itself; infinity or NaN: contact at 0.
   double minimum_separation = 0;
 };

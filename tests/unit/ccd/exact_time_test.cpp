@@ -244,6 +244,78 @@ TEST(ExactTime, RootsCloserTogetherThanDoublesAreToldApart) {
   EXPECT_GT(tally.free, 40);
 }
 
+/// One root of Y a short number, another a few units in the last place away: an enclosure of the one may end at the
+/// other. Three such queries once had a wrong answer: a miss, a contact that is none, a time too early.
+TEST(ExactTime, RootsBesideShortNumbersAreToldApart) {
+  const double e = 5 * 0x1p51;
+  const Query defects[] = {
+      {-1,
+       0,
+       0,
+       -1,
+       -0x1p21,
+       -5,
+       0x1.ffffep19,
+       0x1p21,
+       0,
+       -0x1.4p53,
+       0x1.ffff5cp20,
+       5,
+       0,
+       0,
+       0,
+       0,
+       -0x1p20,
+       3,
+       0x1p20,
+       0x1p20,
+       0,
+       0x1.8000000000001p52,
+       0x1.fffeb8p19,
+       -3},
+      {e - 30, 1, -5, -15, 0, 0, -e, 1, 0, -15, 2, 0, -3 * 0x1p51 - 15, 1, 3, 0, 0, 0, 3 * 0x1p51 + 15, 1, 0, 0, 2, 0},
+      {-15, 1, -5, -15, 0, 0, -e, 1, 0, -15, 2, 0, 0, 1, 3, 0, 0, 0, 3 * 0x1p51 + 15, 1, 0, 0, 2, 0}};
+  Tally tally;
+  for (const Query& query : defects) ASSERT_NO_FATAL_FAILURE(check(Pair::vertex_face, query, tally));
+  EXPECT_EQ(tally.contacts, 2);
+  Random random(9);
+  for (int i = 0; i < 6000; ++i) {
+    const int bits = random.whole(1, 4);
+    const double root = random.whole(1, (1 << bits) - 1), rest = (1 << bits) - root, large = std::ldexp(1.0, 54 - bits);
+    Query query;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t point = 0; point < 4; ++point) {
+        double &from = query[3 * point + axis], &to = query[12 + 3 * point + axis];
+        switch (random.whole(0, 3)) {
+          case 0:
+            from = random.whole(-3, 3);
+            to = random.chance(50) ? from : random.whole(-3, 3);
+            break;
+          case 1: {  // zero at the root, about, from far away
+            const double sign = random.chance(50) ? 1 : -1;
+            from = -sign * root * large + (random.chance(50) ? 0 : random.whole(-30, 30));
+            to = sign * rest * large + (random.chance(50) ? 0 : random.whole(-30, 30));
+            break;
+          }
+          case 2: {  // zero at the root
+            const int factor = random.whole(-3, 3);
+            from = -factor * root;
+            to = factor * rest;
+            break;
+          }
+          case 3:
+            from = random.whole(-20, 20);
+            to = random.chance(50) ? from : random.whole(-20, 20);
+            break;
+        }
+      }
+    }
+    const Pair pair = i % 2 == 0 ? Pair::vertex_face : Pair::edge_edge;
+    ASSERT_NO_FATAL_FAILURE(check(pair, query, tally)) << i;
+  }
+  EXPECT_GT(tally.contacts, 300);
+}
+
 /// What the tests above would notice: rounding to nearest, a later root, a tolerance counted upwards.
 TEST(ExactTime, DefectsAreNoticed) {
   ContactGenerator generator(78);
