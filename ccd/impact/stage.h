@@ -5,8 +5,8 @@ namespace tightrope::ccd {
 
 /// What decides a query, in the order of their turns.
 enum class Stage : unsigned char {
-  first_look,   ///< the coefficients of Y have one sign, by SafeBound
-  separation,   ///< one feature is beyond the other in a coordinate all the time
+  first_look,   ///< a plane along the face (both edges) as at t = 0 separates the features, by SafeBound
+  separation,   ///< an axis does, or a plane along the features as at t = 1
   hull,         ///< Y or the quadratics, in the best geometry and with TightBound, on the whole step
   subdivision,  ///< the same on parts of the step
   exact,        ///< exact arithmetic

@@ -62,6 +62,19 @@ TEST_P(FirstTouch, TimesAgreeWithTheOracle) {
   EXPECT_GT(at_start, 50);
 }
 
+/// Who wants the time leaves more to exact arithmetic than who does not, and never less.
+TEST_P(FirstTouch, StagesDependOnTheQuestion) {
+  const Kind kind = GetParam();
+  int more = 0;
+  for (const Query& query : queries_of(kind, 40)) {
+    const Stage whether = deciding_stage(kind, query.data(), Question::whether);
+    const Stage when = deciding_stage(kind, query.data(), Question::when);
+    EXPECT_LE(whether, when) << show_query(query.data());
+    more += whether < when ? 1 : 0;
+  }
+  EXPECT_GT(more, 5);
+}
+
 TEST_P(FirstTouch, ContactsAfterTMaxDoNotCount) {
   const Kind kind = GetParam();
   int counted = 0, left_out = 0;

@@ -131,6 +131,39 @@ TEST(FirstImpact, SeparationOfEveryPair) {
   }
 }
 
+/// Options act together, and in every form of the query: what is asked for later than t_max is not found, and no
+/// tolerance but the given one is used.
+TEST(FirstImpact, OptionsActTogether) {
+  const Eigen::Vector3d over(1, 1, 3), near(1, 1, 1), x(4, 0, 0), y(0, 4, 0);  // the distance is 3 - 2t
+  const auto face = [&](const ImpactOptions& options) { return vertex_face(over, a, x, y, near, a, x, y, options); };
+  EXPECT_FALSE(face({.t_max = 0.4375, .minimum_separation = 2}));
+  ASSERT_TRUE(face({.t_max = 0.5625, .minimum_separation = 2}));
+  const auto coarse = face({.tolerance = 0.25, .minimum_separation = 1.25});
+  const auto fine = face({.tolerance = 1e-12, .minimum_separation = 1.25});
+  ASSERT_TRUE(coarse && fine);
+  EXPECT_GE(coarse->time, 0.875 - 0.2500011);
+  EXPECT_NEAR(fine->time, 0.875, 1.5e-6) << "but for the slack of the separation";
+  const Eigen::Vector2d p0(1, 1), p1(1, -1), e0(0, 0), e1(4, 0);  // crosses at 1/2
+  EXPECT_FALSE(vertex_edge(p0, e0, e1, p1, e0, e1, {.t_max = 0.4375}));
+  EXPECT_TRUE(vertex_edge(p0, e0, e1, p1, e0, e1, {.t_max = 0.5}));
+}
+
+/// 0 means contact at 0, whatever the tolerance.
+TEST(FirstImpact, NoContactAtZeroNoTimeZero) {
+  for (const double height : {1e-17, 1e-30, 1e-300}) {
+    const Eigen::Vector3d start(0.25, 0.25, height), end(0.25, 0.25, -1);
+    const auto face = vertex_face(start, a, b, c, end, a, b, c);
+    const Eigen::Vector3d up(0, 0, height), down(0, 0, -1), x0(-1, 0.25, 0), x1(1, 0.25, 0), y0(0.25, -1, 0),
+        y1(0.25, 1, 0);
+    const auto edges = edge_edge(x0 + up, x1 + up, y0, y1, x0 + down, x1 + down, y0, y1);
+    for (const auto& impact : {face, edges}) {
+      ASSERT_TRUE(impact);
+      EXPECT_GT(impact->time, 0);
+      EXPECT_LE(impact->time, height);
+    }
+  }
+}
+
 TEST(FirstImpact, CoordinatesThatAreNotFiniteGiveContactAtZero) {
   test::Random random(5);
   const Query query = test::miss(Kind::vertex_face, random);
