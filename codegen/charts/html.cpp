@@ -13,7 +13,7 @@ constexpr const char* style_sheet = R"(
 body { margin: 1rem auto; max-width: 1000px; padding: 0 1rem; font: 14px/1.4 sans-serif; color: #111; background: #fff }
 figure { margin: 0 }
 svg { display: block; width: 100%; height: auto; touch-action: pan-y pinch-zoom }
-.datum { fill: transparent; stroke: none; outline: none; cursor: pointer }
+.datum { fill: none; pointer-events: all; stroke: none; outline: none; cursor: pointer }
 .datum.on { stroke: #111; stroke-width: 2 }
 #card { position: absolute; max-width: 22rem; padding: .4rem .6rem; border: 1px solid #888; border-radius: 4px;
   color: #111; background: #fff; box-shadow: 0 2px 8px #0004; pointer-events: none }
@@ -141,7 +141,8 @@ std::string targets(const Chart& chart, const Layout& layout) {
       std::string words = chart.panels[p].name + ", " + series.name;
       for (const Fact& fact : series.data[place.datum].facts) words += ", " + fact.name + " " + fact.value;
       text += fmt::format(
-          "<circle class=\"datum\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"9\" tabindex=\"0\" role=\"img\" "
+          "<circle class=\"datum\" fill=\"none\" pointer-events=\"all\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"9\" "
+          "tabindex=\"0\" role=\"img\" "
           "aria-label=\"{}\"/>\n",
           place.place.x, place.place.y, escaped(printable(words)));
     }
