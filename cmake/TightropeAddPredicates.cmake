@@ -67,15 +67,19 @@ function(_tightrope_compile_predicate target type directory file bounds reals te
     list(APPEND outputs ${directory}/${stem}.test.cpp)
     set(options --tests)
   endif()
+  # Ninja refuses a depfile that names outputs which its command has no longer: other outputs, another depfile.
+  string(SHA1 key "${outputs}")
+  string(SUBSTRING ${key} 0 8 key)
+  set(depfile ${directory}/${stem}.${key}.d)
   list(JOIN bounds "," bounds)
   list(JOIN reals "," reals)
   file(MAKE_DIRECTORY ${directory})
   add_custom_command(
     OUTPUT ${outputs}
     COMMAND tightrope::compiler compile ${path} --bound ${bounds} --real ${reals} ${options}
-            --depfile ${directory}/${stem}.d -o ${directory}
+            --depfile ${depfile} -o ${directory}
     DEPENDS ${path} tightrope::compiler
-    DEPFILE ${directory}/${stem}.d
+    DEPFILE ${depfile}
     COMMENT "tightrope compile ${stem}.pred"
     VERBATIM)
   add_custom_target(${target}_${id}_predicates DEPENDS ${outputs})
