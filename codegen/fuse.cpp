@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "codegen/node_uses.h"
 #include "codegen/simplify.h"
 
 namespace tightrope::codegen {
@@ -13,22 +14,6 @@ using dsl::no_node;
 using dsl::Node;
 using dsl::NodeId;
 using dsl::Op;
-
-std::vector<int> uses_of_nodes(const dsl::Predicate& predicate) {
-  std::vector<int> uses(static_cast<std::size_t>(predicate.graph.size()), 0);
-  for (const dsl::Stage& stage : predicate.stages) {
-    for (const dsl::Output& output : stage.outputs) {
-      for (const NodeId id : output.nodes) ++uses[static_cast<std::size_t>(id)];
-    }
-  }
-  for (NodeId id = 0; id < predicate.graph.size(); ++id) {
-    const Node& n = predicate.graph[id];
-    for (const NodeId operand : {n.a, n.b, n.c}) {
-      if (operand != no_node) ++uses[static_cast<std::size_t>(operand)];
-    }
-  }
-  return uses;
-}
 
 class Contraction {
  public:

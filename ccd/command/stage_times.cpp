@@ -27,7 +27,7 @@ using Groups = std::array<Group, stages_in_order.size()>;
 /// Answers all queries; the sum of the answers, so that they are not optimised away.
 template <class Real>
 double answer_all(Kind kind, std::span<const Real> points, Question question) {
-  const Pair pair = kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge;
+  const Pair pair = pair_of(kind);
   double sum = 0;
   for (std::size_t i = 0; i < points.size(); i += coordinates_per_query) {
     switch (question) {

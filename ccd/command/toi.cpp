@@ -44,7 +44,7 @@ bool has_times(Method method) {
 
 std::optional<double> time_of_impact(Method method, Kind kind, const double* points, const ImpactOptions& options) {
   if (method == Method::tightrope) {
-    const auto impact = first_impact(kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge, points, options);
+    const auto impact = first_impact(pair_of(kind), points, options);
     return impact ? std::optional(impact->time) : std::nullopt;
   }
   const auto contact = first_contact(kind, points, method);

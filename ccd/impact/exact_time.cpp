@@ -193,8 +193,7 @@ std::optional<TimeBracket> exact_first_contact(Pair pair, const double* points, 
 
 TimeBracket sharpened(Kind kind, const double* points, TimeBracket bracket, double tolerance) {
   if (bracket.upper - bracket.lower <= tolerance && bracket.lower > 0) return bracket;
-  const Pair pair = kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge;
-  const Cubic y = exact::Features(pair, points).coplanarity();
+  const Cubic y = exact::Features(pair_of(kind), points).coplanarity();
   Root time = Root::crossing(y, bracket.lower, bracket.upper);
   time.narrow();
   return located(time, tolerance, bracket.upper);

@@ -19,8 +19,6 @@
 namespace tightrope::ccd {
 namespace {
 
-Pair pair_of(Kind kind) { return kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge; }
-
 template <class Real, class Signs>
 bool decide(Kind kind, const Real* points, Signs& signs) {
   const Filtered f = filtered(kind, points, Question::whether, 1, signs);

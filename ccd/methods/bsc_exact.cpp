@@ -36,9 +36,7 @@ std::optional<bool> filtered(Kind kind, const double* points, Signs& signs) {
 
 }  // namespace
 
-bool exact::contact(Kind kind, const double* points) {
-  return exact_contact(kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge, points);
-}
+bool exact::contact(Kind kind, const double* points) { return exact_contact(pair_of(kind), points); }
 
 std::optional<bool> exact::filtered_contact(Kind kind, const double* points) {
   SignReader signs;

@@ -13,6 +13,9 @@ namespace tightrope::ccd {
 /// of them at t = 0, then at t = 1.
 enum class Pair { vertex_vertex, vertex_edge, vertex_face, edge_edge };
 
+/// The pair that a query of this kind is about.
+constexpr Pair pair_of(Kind kind) { return kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge; }
+
 /// Where and when the features touch first.
 struct Impact {
   /// In steps, in [0, 1]: time <= first contact <= time + tolerance. 0 only if there is contact at 0, or before the

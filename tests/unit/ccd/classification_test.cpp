@@ -16,6 +16,7 @@
 #include "edge_edge.safe.float.h"
 #include "edge_edge.tight.double.h"
 #include "edge_edge.tight.float.h"
+#include "forgetful_reader.h"
 #include "vertex_face.safe.double.h"
 #include "vertex_face.safe.float.h"
 #include "vertex_face.tight.double.h"
@@ -30,24 +31,11 @@ namespace tightrope::ccd {
 namespace {
 
 using test::ContactGenerator;
+using test::ForgetfulReader;
 using test::Query;
 using test::Random;
 
 constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
-
-/// Forgets signs with a given probability.
-class ErodingReader {
- public:
-  ErodingReader(std::uint64_t seed, int percent) : random_(seed), percent_(percent) {}
-  template <class Real>
-  Sign operator()(const Bounded<Real>& x) {
-    return random_.chance(percent_) ? Sign::uncertain : sign(x);
-  }
-
- private:
-  Random random_;
-  int percent_;
-};
 
 /// Believes values whatever their bounds are, and takes 0 for positive.
 struct GullibleReader {
@@ -90,7 +78,7 @@ TYPED_TEST_SUITE(ClassificationIn, Reals);
 
 TYPED_TEST(ClassificationIn, ErosionOfSignsRejectsNoContact) {
   for (const int percent : {2, 5, 20, 50, 90}) {
-    ErodingReader tight(1, percent), safe(2, percent);
+    ForgetfulReader tight(1, percent), safe(2, percent);
     EXPECT_EQ((missed_contacts<bound::tight, TypeParam>(21, 40'000, tight)), 0) << percent;
     EXPECT_EQ((missed_contacts<bound::safe, TypeParam>(22, 20'000, safe)), 0) << percent;
   }
@@ -116,7 +104,7 @@ TEST(Classification, MoreErosionNeverDecidesLess) {  // rejections only get fewe
     std::vector<Query> queries(3000);
     for (Query& query : queries) query = test::miss(kind, random);
     for (const int percent : {0, 10, 50, 100}) {
-      ErodingReader reader(3, percent);
+      ForgetfulReader reader(3, percent);
       int reported = 0;
       for (const Query& query : queries) reported += collides<bound::tight>(kind, query.data(), reader);
       EXPECT_GE(reported, last);

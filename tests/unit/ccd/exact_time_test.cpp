@@ -28,8 +28,6 @@ using test::Random;
 
 constexpr double least = std::numeric_limits<double>::denorm_min();
 
-Pair pair_of(Kind kind) { return kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge; }
-
 /// A query of fewer points as one of four that touches at the same times: the last point of each feature repeated.
 Query with_four_points(Pair pair, const Query& points) {
   if (pair == Pair::vertex_face || pair == Pair::edge_edge) return points;

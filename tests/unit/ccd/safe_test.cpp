@@ -15,6 +15,7 @@
 #include "edge_edge.safe.float.h"
 #include "edge_edge.tight.double.h"
 #include "edge_edge.tight.float.h"
+#include "forgetful_reader.h"
 #include "oracle/oracle.h"
 #include "safe_cubic.float.double.h"
 #include "safe_cubic.float.float.h"
@@ -42,6 +43,7 @@ namespace tightrope::ccd {
 namespace {
 
 using test::ContactGenerator;
+using test::ForgetfulReader;
 using test::Query;
 using test::Random;
 using FloatQuery = std::array<float, 24>;
@@ -156,19 +158,6 @@ TEST(Safe, ReportsContactsInAnyUnitsAndFarFromTheOrigin) {
 
 // --- The decision with signs forgotten or invented ---------------------------------------------------------------
 
-class Eroding {
- public:
-  Eroding(std::uint64_t seed, int percent) : random_(seed), percent_(percent) {}
-  template <class Real>
-  Sign operator()(const Bounded<Real>& x) {
-    return random_.chance(percent_) ? Sign::uncertain : sign(x);
-  }
-
- private:
-  Random random_;
-  int percent_;
-};
-
 /// Believes a bound that is a given factor too small.
 struct Boastful {
   double factor;
@@ -199,7 +188,7 @@ int missed(std::uint64_t seed, int count, Reader& reader) {
 
 TEST(SafeErosion, ForgottenSignsRejectNoContact) {
   for (const int percent : {2, 10, 40, 90}) {
-    Eroding reader(33, percent);
+    ForgetfulReader reader(33, percent);
     EXPECT_EQ((missed<bound::safe, double>(34, 4'000, reader)), 0) << percent;
     EXPECT_EQ((missed<bound::tight, double>(35, 4'000, reader)), 0) << percent;
     EXPECT_EQ((missed<bound::safe, float>(36, 4'000, reader)), 0) << percent;
@@ -323,7 +312,7 @@ TEST(SafeCubic, IntervalsHoldEveryRoot) {
   SignReader reader;
   EXPECT_EQ(lost_roots<bound::safe>(reader), 0);
   EXPECT_EQ(lost_roots<bound::tight>(reader), 0);
-  Eroding eroding(45, 20);
+  ForgetfulReader eroding(45, 20);
   EXPECT_EQ(lost_roots<bound::tight>(eroding), 0);
   Boastful none{0};  // bounds and the slack of S1 dropped
   EXPECT_GT(lost_roots<bound::tight>(none), 0);

@@ -21,6 +21,7 @@
 // After the generated headers:
 #include "ccd/impact/filter.h"
 #include "contacts.h"
+#include "forgetful_reader.h"
 #include "oracle/oracle.h"
 #include "scenes/scene.h"
 #include "tests/stability/show_query.h"
@@ -29,24 +30,11 @@ namespace tightrope::ccd {
 namespace {
 
 using test::ContactGenerator;
+using test::ForgetfulReader;
 using test::Query;
 using test::Random;
 
 constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
-
-/// Forgets some of the signs.
-class ForgetfulReader {
- public:
-  ForgetfulReader(std::uint64_t seed, int percent) : random_(seed), percent_(percent) {}
-  template <class Real>
-  Sign operator()(const Bounded<Real>& x) {
-    return random_.chance(percent_) ? Sign::uncertain : sign(x);
-  }
-
- private:
-  Random random_;
-  int percent_;
-};
 
 /// Believes bounds to be smaller than they are.
 struct CarelessReader {

@@ -22,8 +22,6 @@ namespace {
 using nlohmann::json;
 using Query = std::array<double, coordinates_per_query>;
 
-Pair pair_of(Kind kind) { return kind == Kind::vertex_face ? Pair::vertex_face : Pair::edge_edge; }
-
 /// Writes a scene to a file; its queries in file order.
 std::vector<std::pair<Kind, Query>> write_scene(const ScratchDirectory& scratch, Scene scene, const std::string& file) {
   constexpr std::size_t count = 200;
