@@ -32,6 +32,7 @@ RULES = {
     "codegen/": [r"codegen/.*", r"dsl/.*", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", r"(?:clang|llvm)/.*", RUNTIME, POSIX],
     "codegen/charts/": [r"codegen/charts/.*", r"fmt/.*", POSIX],
     "ccd/": [r"ccd/(?:methods/|impact/)?[\w.]+", API, r"Eigen/.*", RUNTIME, GENERATED],
+    "ccd/batch/": [r"ccd/batch/.*", r"ccd/(?:impact/|methods/)?\w+\.h", API, RUNTIME, GENERATED, r"oneapi/tbb/\w+\.h", r"hwy/\w+\.h"],
     "ccd/oracle/": [r"ccd/oracle/.*", r"ccd/tightrope/ccd\.h", r"gmp(?:xx)?\.h"],
     "ccd/query_io/": [r"ccd/query_io/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"hdf5\.h", POSIX],
     "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],
