@@ -1,7 +1,9 @@
-# tightrope_add_predicates(TARGET FILES a.pred .. [BOUNDS float|safe|tight|static|interval|exact|staged ..] [REALS double|float ..] [TESTS])
+# tightrope_add_predicates(TARGET FILES a.pred .. [BOUNDS float|safe|tight|static|interval|exact|staged ..] [REALS double|float ..] [SIMD] [TESTS])
 #
 # Compiles predicates at build time and lets TARGET include the results, "a.tight.double.h" and so on (BOUNDS default to
 # tight, REALS to double). An INTERFACE library as TARGET passes them on to whoever links it in the same build.
+#
+# SIMD makes the headers for vector classes too, "a.tight.double.simd.h" (not of exact and staged).
 #
 # TESTS builds the generated tests too, one executable TARGET_<stem>_generated_tests a file, registered with CTest as
 # generated.TARGET.<stem> (label `generated`; needs GoogleTest, and enable_testing() in the top-level CMakeLists.txt).
@@ -9,7 +11,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.20)  # functions keep the policies of their definition: depfiles work in projects of any age
 
 function(tightrope_add_predicates target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "TESTS" "" "FILES;BOUNDS;REALS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SIMD;TESTS" "" "FILES;BOUNDS;REALS")
   if(NOT TARGET ${target})
     message(FATAL_ERROR "tightrope_add_predicates: ${target} is not a target")
   endif()
@@ -39,7 +41,7 @@ function(tightrope_add_predicates target)
   get_target_property(type ${target} TYPE)
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/${target}_predicates)
   foreach(file IN LISTS arg_FILES)
-    _tightrope_compile_predicate(${target} ${type} ${directory} ${file} "${arg_BOUNDS}" "${arg_REALS}" "${arg_TESTS}")
+    _tightrope_compile_predicate(${target} ${type} ${directory} ${file} "${arg_BOUNDS}" "${arg_REALS}" "${arg_SIMD}" "${arg_TESTS}")
   endforeach()
   if(type STREQUAL INTERFACE_LIBRARY)
     target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${directory}>)
@@ -51,7 +53,7 @@ function(tightrope_add_predicates target)
 endfunction()
 
 # One file of the above: a command that compiles it, a target that runs the command before `target` is built, and tests.
-function(_tightrope_compile_predicate target type directory file bounds reals tests)
+function(_tightrope_compile_predicate target type directory file bounds reals simd tests)
   get_filename_component(path ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
   get_filename_component(stem ${file} NAME_WLE)
   string(MAKE_C_IDENTIFIER ${stem} id)
@@ -59,13 +61,19 @@ function(_tightrope_compile_predicate target type directory file bounds reals te
   foreach(bound IN LISTS bounds)
     foreach(real IN LISTS reals)
       list(APPEND headers ${directory}/${stem}.${bound}.${real}.h)
+      if(simd AND NOT bound MATCHES "^(exact|staged)$")
+        list(APPEND headers ${directory}/${stem}.${bound}.${real}.simd.h)
+      endif()
     endforeach()
   endforeach()
   set(outputs ${headers})
   set(options)
+  if(simd)
+    set(options --target cpp,simd)
+  endif()
   if(tests)
     list(APPEND outputs ${directory}/${stem}.test.cpp)
-    set(options --tests)
+    list(APPEND options --tests)
   endif()
   # Ninja refuses a depfile that names outputs which its command has no longer: other outputs, another depfile.
   string(SHA1 key "${outputs}")

@@ -129,7 +129,18 @@ std::string interpret(const Arguments& arguments, CompileRequest& request) {
   if (!error.empty()) return error;
   if (products.size() != 1) return "--products: give one value, direct or karatsuba";
   request.products = products.front();
-  selected<bool>("--target", arguments.target, {{"cpp", {true}}}, error);
+  request.forms =
+      selected<Form>("--target", arguments.target,
+                     {{"cpp", {Form::scalar}}, {"simd", {Form::lanes}}, {"all", {Form::scalar, Form::lanes}}}, error);
+  if (!error.empty()) return error;
+  if (std::find(request.forms.begin(), request.forms.end(), Form::scalar) == request.forms.end()) {
+    if (arguments.tests) return "--tests: the generated tests need --target cpp";
+    for (const BoundMode mode : request.modes) {
+      if (!request.only_applicable_modes && (mode == BoundMode::exact || mode == BoundMode::staged)) {
+        return fmt::format("--bound: mode {} has no code for vector classes (--target simd)", name(mode));
+      }
+    }
+  }
   request.fma = arguments.fma;
   request.tests = arguments.tests;
   request.directory = arguments.directory;
@@ -303,7 +314,10 @@ int run_command(int argc, const char* const* argv) {
   CLI::App& compile = *app.add_subcommand("compile", "Write NAME.BOUND.REAL.h for every bound and scalar type");
   add_file_option(compile, arguments, false);
   add_program_options(compile, arguments);
-  compile.add_option("--target", arguments.target, "cpp")->capture_default_str();
+  compile
+      .add_option("--target", arguments.target,
+                  "cpp; simd: NAME.BOUND.REAL.simd.h for vector classes (not exact, staged); a comma list, or all")
+      ->capture_default_str();
   compile.add_flag("--tests", arguments.tests, "also write NAME.test.cpp and a CMakeLists.txt that runs it");
   compile.add_option("--depfile", arguments.depfile, "write what the outputs depend on, in make's syntax");
   compile.add_option("-o", arguments.directory, "folder for the outputs")->capture_default_str();

@@ -150,7 +150,7 @@ std::string validated_header(std::span<const GeneratedPredicate> predicates, con
   std::string text = formatted(print_header(predicates, options), name);
   std::vector<AnalysedPredicate> analysed;
   for (const GeneratedPredicate& p : predicates) analysed.push_back({p.predicate, p.bounded});
-  const std::string mismatch = validate(text, name, analysed, options.mode, options.precision);
+  const std::string mismatch = validate(text, name, analysed, options.mode, options.precision, options.form);
   if (!mismatch.empty()) throw TranslationError(mismatch);
   return text;
 }
@@ -173,16 +173,20 @@ std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl:
     for (std::size_t i = 0; i < program.predicates.size(); ++i) {
       predicates.push_back({&program.predicates[i], &bounded.predicates[i]});
     }
-    const std::string name = header_name(stem, bounded.mode, bounded.precision);
-    files.push_back(
-        {request.directory / name,
-         validated_header(predicates, {source_name, hash, bounded.mode, bounded.precision, request.fma}, name)});
+    for (const Form form : request.forms) {
+      const std::string name = header_name(stem, bounded.mode, bounded.precision, form);
+      const HeaderOptions options = {source_name, hash, bounded.mode, bounded.precision, request.fma, {}, form};
+      files.push_back({request.directory / name, validated_header(predicates, options, name)});
+    }
   }
   // Exact answers know no rounding: their filters stay unfused.
   const dsl::Program unfused =
       request.fma ? dsl::load_program(request.file, sources, diagnostics, {.products = request.products}) : program;
-  for (TextFile& file : exact_files(request, modes, unfused, {source_name, hash, BoundMode::exact, Precision::binary64},
-                                    stem, diagnostics, weakening)) {
+  const bool scalar = std::find(request.forms.begin(), request.forms.end(), Form::scalar) != request.forms.end();
+  const std::vector<BoundMode> scalar_modes = scalar ? modes : std::vector<BoundMode>();
+  for (TextFile& file :
+       exact_files(request, scalar_modes, unfused, {source_name, hash, BoundMode::exact, Precision::binary64}, stem,
+                   diagnostics, weakening)) {
     files.push_back(std::move(file));
   }
   if (diagnostics.has_errors()) return std::nullopt;

@@ -16,6 +16,7 @@ struct CompileRequest {
   std::string file;
   std::vector<BoundMode> modes = {BoundMode::tight};
   std::vector<Precision> precisions = {Precision::binary64};
+  std::vector<Form> forms = {Form::scalar};
   dsl::ProductScheme products = dsl::ProductScheme::direct;
   bool only_applicable_modes = false;  ///< leave out `static` where the predicates do not admit it
   bool fma = false;                    ///< contract products into sums (codegen/fuse.h)

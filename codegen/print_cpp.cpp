@@ -53,7 +53,9 @@ class PredicatePrinter {
       : predicate_(*generated.predicate),
         bounded_(*generated.bounded),
         options_(options),
-        real_(codegen::name(options.precision)),
+        lanes_(options.form == Form::lanes),
+        scalar_(codegen::name(options.precision)),
+        real_(lanes_ ? "real" : scalar_),
         schedule_(codegen::schedule(bounded_)),
         arguments_(codegen::arguments(predicate_)),
         slots_(slot_expressions(predicate_)),
@@ -86,7 +88,9 @@ class PredicatePrinter {
   const dsl::Predicate& predicate_;
   const BoundedPredicate& bounded_;
   const HeaderOptions& options_;
-  std::string real_;
+  bool lanes_;
+  std::string scalar_;  ///< "double"
+  std::string real_;    ///< the type of the numbers
   Schedule schedule_;
   std::vector<Argument> arguments_;
   std::vector<std::string> slots_;
@@ -134,7 +138,7 @@ std::string PredicatePrinter::expression(NodeId id) const {
     case Op::div:
       return fmt::format("{} / {}", a, b);
     case Op::sqrt:
-      return fmt::format("__builtin_sqrt{}({})", suffix, a);
+      return lanes_ ? fmt::format("square_root({})", a) : fmt::format("__builtin_sqrt{}({})", suffix, a);
     case Op::abs:
       return fmt::format("magnitude({})", a);
     case Op::min:
@@ -151,6 +155,7 @@ std::string PredicatePrinter::expression(NodeId id) const {
     case Op::select:
       return fmt::format("choose({}, {}, {})", a, b, operand(node.c));
     case Op::fma:
+      if (lanes_) return fmt::format("multiply_add({}, {}, {})", a, b, operand(node.c));
       return fmt::format("__builtin_fma{}({}, {}, {})", suffix, a, b, operand(node.c));
   }
   return {};
@@ -317,13 +322,13 @@ std::string PredicatePrinter::print() {
   line(fmt::format("struct {};", predicate_.name));
   line("");
   line("template <>");
-  line(fmt::format("struct {}<{}, {}> {{", predicate_.name, tag(options_.mode), real_));
-  line(fmt::format("  using real = {};", real_));
+  line(fmt::format("struct {}<{}, {}> {{", predicate_.name, tag(options_.mode), scalar_));
+  line(fmt::format("  using real = {};", lanes_ ? fmt::format("Lanes<{}>", scalar_) : scalar_));
   print_results();
   if (several_stages_) print_state();
-  if (has_range_) print_in_range();
+  if (has_range_ && !lanes_) print_in_range();
   for (std::size_t stage = 0; stage < predicate_.stages.size(); ++stage) {
-    if (has_range_) print_checked_stage(stage);
+    if (has_range_ && !lanes_) print_checked_stage(stage);
     print_stage(stage);
   }
   line("};");
@@ -365,6 +370,12 @@ constexpr std::string_view fma_test =
     "#error \"Tightrope: made with --fma; compile for hardware with fused multiply-add (-mfma)\"\n"
     "#endif\n\n";
 
+constexpr std::string_view lanes_includes =
+    "//\n"
+    "// For vector classes, one query a lane. Every number keeps its declared range: the caller sees to that. May be\n"
+    "// included once for each namespace TIGHTROPE_LANES.\n\n"
+    "#include <tightrope/lanes.h>\n\n";
+
 }  // namespace
 
 std::string print_header(std::span<const GeneratedPredicate> predicates, const HeaderOptions& options) {
@@ -382,17 +393,21 @@ std::string print_header(std::span<const GeneratedPredicate> predicates, const H
     head += printer.summary();
     body += printer.print();
   }
-  return head + "#pragma once\n\n#include <tightrope/sign.h>\n\n" + std::string(options.fma ? fma_test : "") +
-         "TIGHTROPE_PRECISE_BEGIN\nnamespace tightrope::generated {\n" + body +
-         "\n}  // namespace tightrope::generated\nTIGHTROPE_PRECISE_END\n";
+  const bool lanes = options.form == Form::lanes;
+  const std::string space = lanes ? "tightrope::TIGHTROPE_LANES" : "tightrope::generated";
+  std::string_view includes = "#pragma once\n\n#include <tightrope/sign.h>\n\n";
+  if (lanes) includes = lanes_includes;
+  return head + std::string(includes) + std::string(options.fma && !lanes ? fma_test : "") +
+         fmt::format("TIGHTROPE_PRECISE_BEGIN\nnamespace {} {{\n{}\n}}  // namespace {}\nTIGHTROPE_PRECISE_END\n",
+                     space, body, space);
 }
 
 std::string print_predicate(const GeneratedPredicate& generated, const HeaderOptions& options) {
   return PredicatePrinter(generated, options).print();
 }
 
-std::string header_name(const std::string& stem, BoundMode mode, Precision precision) {
-  return fmt::format("{}.{}.{}.h", stem, name(mode), name(precision));
+std::string header_name(const std::string& stem, BoundMode mode, Precision precision, Form form) {
+  return fmt::format("{}.{}.{}{}.h", stem, name(mode), name(precision), form == Form::lanes ? ".simd" : "");
 }
 
 }  // namespace tightrope::codegen

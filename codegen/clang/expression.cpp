@@ -55,7 +55,8 @@ bool names(const clang::Expr* expression, const clang::ValueDecl* declaration) {
 }
 
 bool in_runtime(const clang::Decl* declaration, const clang::SourceManager& sources) {
-  const llvm::StringRef file = sources.getFilename(sources.getSpellingLoc(declaration->getLocation()));
+  // A macro's name in the text stands in the text: TIGHTROPE_LANES, where a namespace is opened.
+  const llvm::StringRef file = sources.getFilename(sources.getExpansionLoc(declaration->getLocation()));
   return std::string_view(file.data(), file.size()).substr(0, runtime_folder.size()) == runtime_folder;
 }
 
@@ -125,7 +126,7 @@ NodeId ExpressionReader::read(const clang::Expr* expression) {
   return input(e, false, e);
 }
 
-/// The operation that a callee stands for: the runtime's own functions and three built-ins, nothing of the same name.
+/// The operation that a callee stands for: the runtime's own functions and built-ins, nothing of the same name.
 Op ExpressionReader::operation(const clang::CallExpr* call) const {
   struct Callee {
     std::string_view name;
@@ -137,6 +138,8 @@ Op ExpressionReader::operation(const clang::CallExpr* call) const {
                                 {"tightrope::maximum", Op::max},
                                 {"tightrope::max_magnitude", Op::max_magnitude},
                                 {"tightrope::choose", Op::select},
+                                {"tightrope::square_root", Op::sqrt},
+                                {"tightrope::multiply_add", Op::fma},
                                 {"tightrope::normalizer", Op::normalizer},
                                 {"tightrope::certain_nonzero", Op::certain_nonzero},
                                 {"tightrope::certain_nonnegative", Op::certain_nonnegative}};

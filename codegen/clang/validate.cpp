@@ -62,7 +62,7 @@ std::string foreign_directive(const std::string& text, const std::string& file_n
 class ClassValidator {
  public:
   ClassValidator(const clang::ASTContext& context, const AnalysedPredicate& analysed, BoundMode mode,
-                 Precision precision, const clang::ClassTemplateSpecializationDecl* code)
+                 Precision precision, Form form, const clang::ClassTemplateSpecializationDecl* code)
       : subject_{context,
                  *analysed.predicate,
                  *analysed.bounded,
@@ -70,6 +70,7 @@ class ClassValidator {
                  precision == Precision::binary64 ? context.DoubleTy : context.FloatTy,
                  input_arguments(*analysed.predicate)},
         mode_(mode),
+        form_(form),
         code_(code) {}
 
   void run() {
@@ -77,8 +78,8 @@ class ClassValidator {
     find_members();
     CanonicalGraph graph(subject_.bounded.graph, format(subject_.precision).significand_bits);
     std::map<const clang::ValueDecl*, dsl::NodeId> saved;
-    const bool checked = subject_.has_range();
-    if (checked) {
+    const bool has_range = subject_.has_range();
+    if (has_range && form_ == Form::scalar) {
       const clang::FunctionDecl* in_range = function("in_range", subject_.context.BoolTy, no_state);
       validate_in_range(subject_, in_range);
       for (std::size_t s = 0; s < subject_.results.size(); ++s) {
@@ -88,7 +89,7 @@ class ClassValidator {
     }
     for (std::size_t s = 0; s < subject_.results.size(); ++s) {
       const std::string& name = subject_.predicate.stages[s].name;
-      validate_stage(subject_, graph, s, stage_function(checked ? name + "_in_range" : name, s), saved);
+      validate_stage(subject_, graph, s, stage_function(has_range ? name + "_in_range" : name, s), saved);
     }
     if (!functions_.empty()) mismatch(functions_.begin()->second, "a function that predicates do not have");
   }
@@ -238,6 +239,7 @@ class ClassValidator {
 
   Subject subject_;
   BoundMode mode_;
+  Form form_;
   const clang::ClassTemplateSpecializationDecl* code_;
   std::map<std::string, const clang::CXXMethodDecl*> functions_;  ///< not yet checked
   std::map<std::string, const clang::CXXMethodDecl*> checked_;
@@ -269,7 +271,7 @@ std::vector<const clang::Decl*> generated_declarations(const clang::ASTContext& 
 }
 
 void validate_unit(const clang::ASTContext& context, std::span<const AnalysedPredicate> predicates, BoundMode mode,
-                   Precision precision) {
+                   Precision precision, Form form) {
   std::size_t next = 0;
   for (const clang::Decl* d : generated_declarations(context)) {
     if (const auto* declared = dyn_cast<clang::ClassTemplateDecl>(d)) {
@@ -278,7 +280,7 @@ void validate_unit(const clang::ASTContext& context, std::span<const AnalysedPre
     } else if (const auto* code = dyn_cast<clang::ClassTemplateSpecializationDecl>(d)) {
       if (next < predicates.size() && code->getNameAsString() == predicates[next].predicate->name &&
           code->isExplicitSpecialization() && !clang::isa<clang::ClassTemplatePartialSpecializationDecl>(code)) {
-        ClassValidator(context, predicates[next++], mode, precision, code).run();
+        ClassValidator(context, predicates[next++], mode, precision, form, code).run();
         continue;
       }
     }
@@ -292,13 +294,13 @@ void validate_unit(const clang::ASTContext& context, std::span<const AnalysedPre
 }  // namespace
 
 std::string validate(const std::string& text, const std::string& file_name,
-                     std::span<const AnalysedPredicate> predicates, BoundMode mode, Precision precision) {
+                     std::span<const AnalysedPredicate> predicates, BoundMode mode, Precision precision, Form form) {
   if (std::string found = foreign_directive(text, file_name); !found.empty()) return found;
   const ParsedCode code = parse_generated(text, file_name);
   if (!code.errors.empty()) return fmt::format("{} is not accepted by the compiler:\n{}", file_name, code.errors);
   const clang::ASTContext& context = code.unit->getASTContext();
   try {
-    validate_unit(context, predicates, mode, precision);
+    validate_unit(context, predicates, mode, precision, form);
   } catch (const Mismatch& mismatch) {
     unsigned line = 0;
     if (mismatch.where.isValid()) line = context.getSourceManager().getPresumedLineNumber(mismatch.where);

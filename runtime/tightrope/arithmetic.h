@@ -127,6 +127,12 @@ TIGHTROPE_FUNCTION constexpr float normalizer(float largest) {
   return __builtin_bit_cast(float, static_cast<unsigned>(253 - exponent) << 23);
 }
 
+/// Square root and fused multiply-add, by the names that vector classes have for them.
+TIGHTROPE_FUNCTION double square_root(double a) { return __builtin_sqrt(a); }
+TIGHTROPE_FUNCTION float square_root(float a) { return __builtin_sqrtf(a); }
+TIGHTROPE_FUNCTION double multiply_add(double a, double b, double c) { return __builtin_fma(a, b, c); }
+TIGHTROPE_FUNCTION float multiply_add(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+
 /// `first` if the condition, a difference of sizes, is not negative, else (a NaN, too) `second`: one of two values that
 /// stand in equal expressions.
 template <class Real>
