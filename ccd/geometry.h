@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "ccd/rescale.h"
-#include "tightrope/ccd.h"
+#include "tightrope/method.h"
 
 namespace tightrope::ccd {
 

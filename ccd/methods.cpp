@@ -1,6 +1,6 @@
 #include <array>
 
-#include "tightrope/ccd.h"
+#include "tightrope/method.h"
 
 namespace tightrope::ccd {
 namespace {

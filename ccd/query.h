@@ -3,7 +3,7 @@
 /// a reader the same decision, whose signs the reader counts.
 
 #include "ccd/sign_reader.h"
-#include "tightrope/ccd.h"
+#include "tightrope/method.h"
 
 namespace tightrope::ccd {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "tightrope/exact.h"
-#include "tightrope/impact.h"
+#include "tightrope/plain.h"
 #include "tightrope/sign.h"
 
 namespace tightrope::ccd::exact {

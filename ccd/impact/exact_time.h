@@ -4,8 +4,7 @@
 
 #include <optional>
 
-#include "tightrope/ccd.h"
-#include "tightrope/impact.h"
+#include "tightrope/plain.h"
 
 namespace tightrope::ccd {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Options of the time of impact, made valid.
 
-#include "tightrope/impact.h"
+#include "tightrope/plain.h"
 
 namespace tightrope::ccd {
 

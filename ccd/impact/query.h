@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "ccd/impact/stage.h"
-#include "tightrope/ccd.h"
-#include "tightrope/impact.h"
+#include "tightrope/plain.h"
 
 namespace tightrope::ccd {
 

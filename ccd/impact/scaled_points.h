@@ -8,7 +8,7 @@
 #include <span>
 
 #include "ccd/rescale.h"
-#include "tightrope/impact.h"
+#include "tightrope/plain.h"
 
 namespace tightrope::ccd {
 

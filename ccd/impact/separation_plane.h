@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "tightrope/impact.h"
+#include "tightrope/plain.h"
 
 namespace tightrope::ccd {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "tightrope/impact.h"
+#include "tightrope/plain.h"
 
 namespace tightrope::ccd {
 

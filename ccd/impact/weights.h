@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "tightrope/ccd.h"
+#include "tightrope/method.h"
 
 namespace tightrope::ccd {
 

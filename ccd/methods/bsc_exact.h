@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "ccd/sign_reader.h"
-#include "tightrope/ccd.h"
+#include "tightrope/method.h"
 
 namespace tightrope::ccd::exact {
 

@@ -12,8 +12,7 @@
 #include <span>
 #include <string_view>
 
-#include "tightrope/ccd.h"
-#include "tightrope/impact.h"
+#include "tightrope/plain.h"
 
 namespace tightrope::ccd {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "tightrope/ccd.h"
+#include "tightrope/method.h"
 
 namespace tightrope::ccd {
 
