@@ -365,7 +365,7 @@ constexpr std::string_view fma_note =
     "without,\n"
     "// which gives the same numbers, slowly.\n";
 constexpr std::string_view fma_test =
-    "#if !defined(__FMA__) && !defined(__ARM_FEATURE_FMA) && !defined(__CUDA_ARCH__) && "
+    "#if !defined(__FMA__) && !defined(__ARM_FEATURE_FMA) && !defined(__CUDACC__) && "
     "!defined(TIGHTROPE_SOFTWARE_FMA)\n"
     "#error \"Tightrope: made with --fma; compile for hardware with fused multiply-add (-mfma)\"\n"
     "#endif\n\n";

@@ -12,7 +12,7 @@
 #endif
 
 #if defined(__CUDACC__)
-#define TIGHTROPE_FUNCTION __host__ __device__ inline
+#define TIGHTROPE_FUNCTION __host__ __device__ __forceinline__
 #elif defined(__GNUC__)
 #define TIGHTROPE_FUNCTION __attribute__((always_inline)) inline
 #else
@@ -30,8 +30,32 @@
 #define TIGHTROPE_PRECISE_END
 #endif
 
+// nvcc has no macro for -ftz=true, -prec-div=false and -prec-sqrt=false (-use_fast_math is all three), but tells the
+// device library of them: __nvvm_reflect becomes a constant when code is made.
+#if defined(__CUDA_ARCH__) && !defined(__clang__)
+#define TIGHTROPE_NVCC_DEVICE
+extern "C" __device__ int __nvvm_reflect(const void* option);
+#endif
+
 TIGHTROPE_PRECISE_BEGIN
 namespace tightrope {
+
+#if defined(TIGHTROPE_NVCC_DEVICE)
+/// Leaves nothing in correct code. ptxas stops at instructions that it does not know; their names are the messages.
+__device__ __forceinline__ void stop_unless_single_precision_is_ieee() {
+  if (__nvvm_reflect("__CUDA_FTZ")) asm volatile("Tightrope_single_precision_needs_ftz_false;");
+  if (!__nvvm_reflect("__CUDA_PREC_DIV")) asm volatile("Tightrope_single_precision_needs_prec_div_true;");
+  if (!__nvvm_reflect("__CUDA_PREC_SQRT")) asm volatile("Tightrope_single_precision_needs_prec_sqrt_true;");
+}
+#endif
+
+/// Stops the compilation of device code whose numbers of type Real are not rounded as IEEE 754 says.
+template <class Real>
+TIGHTROPE_FUNCTION constexpr void require_ieee_device() {
+#if defined(TIGHTROPE_NVCC_DEVICE)
+  if (sizeof(Real) == sizeof(float) && !__builtin_is_constant_evaluated()) stop_unless_single_precision_is_ieee();
+#endif
+}
 
 #if defined(__x86_64__) || defined(__i386__)
 #define TIGHTROPE_FLOAT_REGISTER "+x"
@@ -43,11 +67,13 @@ namespace tightrope {
 
 /// a * b, rounded on its own: no compiler may contract it with a following addition into an fma. g++ ignores the
 /// standard pragma and contracts by default; its barrier keeps the rounded product. clang heeds the pragma unless
-/// -ffp-contract=fast overrules it (its back end then fuses whatever it sees), which an empty asm statement prevents.
+/// -ffp-contract=fast overrules it (its back end then fuses whatever it sees), which an empty asm statement prevents;
+/// so does it for code that nvcc passes on to g++ (nvcc does not know the barrier). On the device, an operation with
+/// its rounding spelled out is never fused.
 TIGHTROPE_FUNCTION double product(double a, double b) {
 #if defined(__CUDA_ARCH__)
   return __dmul_rn(a, b);
-#elif defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && __GNUC__ >= 12
   return __builtin_assoc_barrier(a * b);
 #else
   double p = a * b;
@@ -59,8 +85,9 @@ TIGHTROPE_FUNCTION double product(double a, double b) {
 /// a * b in single precision; see above.
 TIGHTROPE_FUNCTION float product(float a, float b) {
 #if defined(__CUDA_ARCH__)
+  require_ieee_device<float>();
   return __fmul_rn(a, b);
-#elif defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && __GNUC__ >= 12
   return __builtin_assoc_barrier(a * b);
 #else
   float p = a * b;
@@ -96,12 +123,14 @@ TIGHTROPE_FUNCTION constexpr Real maximum(Real a, Real b) {
 /// NaN, so that a quotient by it has no sign (and nothing is divided by zero). The bound may be NaN.
 template <class Real>
 TIGHTROPE_FUNCTION constexpr Real certain_nonzero(Real a, Real bound) {
+  require_ieee_device<Real>();
   return magnitude(a) > bound ? a : static_cast<Real>(__builtin_nan(""));
 }
 
 /// `a` if the exact number that it stands for is certainly not negative; else NaN, which is what its root is then.
 template <class Real>
 TIGHTROPE_FUNCTION constexpr Real certain_nonnegative(Real a, Real bound) {
+  require_ieee_device<Real>();
   return a >= bound ? a : static_cast<Real>(__builtin_nan(""));
 }
 

@@ -24,6 +24,7 @@ struct Bounded {
 /// non-finite value into a NaN or an infinity.
 template <class Real>
 TIGHTROPE_FUNCTION constexpr Sign sign(const Bounded<Real>& x) {
+  require_ieee_device<Real>();
   return x.value > x.bound ? Sign::positive : x.value < -x.bound ? Sign::negative : Sign::uncertain;
 }
 
