@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <thread>
 
 namespace tightrope::ccd {
 
@@ -43,6 +44,53 @@ std::variant<std::vector<Method>, std::string> chosen_methods(std::string_view t
     if (comma == std::string_view::npos) return chosen;
     text.remove_prefix(comma + 1);
   }
+}
+
+namespace {
+
+std::string instruction_names() {
+  std::string names;
+  for (const InstructionSet set : instruction_sets())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name(set));
+  return names;
+}
+
+}  // namespace
+
+void add_execution(CLI::App& app, ExecutionChoice& choice) {
+  constexpr int most_threads = 4096;
+  app.add_option("--threads", choice.threads, "1 if not given; 0: as many as the machine has processors")
+      ->type_name("N")
+      ->check(CLI::Range(0, most_threads));
+  app.add_option(
+         "--instructions", choice.instructions,
+         fmt::format("vector instructions, the best if not given: {}; the answers are the same", instruction_names()))
+      ->type_name("NAME");
+}
+
+void add_device(CLI::App& app, ExecutionChoice& choice) {
+  app.add_option("--device", choice.device, "cpu or gpu; cpu if not given")
+      ->type_name("DEVICE")
+      ->check(CLI::IsMember({"cpu", "gpu"}));
+}
+
+std::variant<Execution, std::string> chosen_execution(const ExecutionChoice& choice) {
+  Execution execution = default_execution();
+  if (choice.device == name(Device::gpu)) execution.device = Device::gpu;
+  if (std::string why = why_unusable(execution.device); !why.empty()) {
+    return fmt::format("--device {}: {}", choice.device, why);
+  }
+  execution.threads =
+      choice.threads > 0 ? choice.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (choice.instructions.empty()) return execution;
+  const auto wanted = instruction_set_by_name(choice.instructions);
+  const auto there = instruction_sets();
+  if (!wanted || std::find(there.begin(), there.end(), *wanted) == there.end()) {
+    return fmt::format("instructions '{}': {}; accepted: {}", choice.instructions,
+                       wanted ? "not in this build, or not on this machine" : "unknown", instruction_names());
+  }
+  execution.instructions = *wanted;
+  return execution;
 }
 
 std::string method_names() {

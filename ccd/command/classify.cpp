@@ -5,6 +5,7 @@
 #include "command/choices.h"
 #include "command/command.h"
 #include "command/progress.h"
+#include "command/spool.h"
 #include "query_io/query_files.h"
 
 namespace tightrope::ccd {
@@ -14,12 +15,15 @@ struct ClassifyOptions {
   std::string method;
   std::string kind;
   std::string path;
+  ExecutionChoice execution;
 };
 
 /// All answers first, then the output: a malformed row leaves none of it.
 int run(const ClassifyOptions& options) {
   const auto method = method_by_name(options.method);
   if (!method) return fail(fmt::format("unknown method '{}'; accepted: {}", options.method, method_names()));
+  const auto chosen = chosen_execution(options.execution);
+  if (const auto* wrong = std::get_if<std::string>(&chosen)) return fail(*wrong);
   auto found = find_query_files(std::span(&options.path, 1), chosen_kind(options.kind));
   if (auto* wrong = std::get_if<FileError>(&found)) return fail(wrong->message);
   QueryStream stream(std::get<std::vector<QueryFile>>(std::move(found)));
@@ -27,19 +31,25 @@ int run(const ClassifyOptions& options) {
   QueryBlock block;
   std::vector<unsigned char> answers;
   std::string lines;
+  Spool output;
+  std::uint64_t done = 0;
   while (true) {
-    constexpr std::size_t queries_per_block = 4096;
+    constexpr std::size_t queries_per_block = 65536;
     if (auto wrong = stream.next(queries_per_block, block)) return fail(wrong->message);
     if (block.size() == 0) break;
     answers.resize(block.size());
-    collides(block.kind, block.points.data(), block.size(), answers.data(), *method);
+    const Queries<double> queries{.kind = block.kind, .count = block.size(), .points = block.points.data()};
+    const BatchStatus status = collides(queries, answers.data(), *method, std::get<Execution>(chosen));
+    if (status != BatchStatus::done) return fail(explanation(status));
+    lines.clear();
     for (const unsigned char answer : answers) lines += answer != 0 ? "1\n" : "0\n";
-    progress.show(lines.size() / 2);
+    if (const std::string wrong = output.append(lines); !wrong.empty()) return fail(wrong);
+    progress.show(done += block.size());
   }
   if (stream.rounded() > 0) {
     warn(fmt::format("{} rational coordinates are no doubles and were rounded to nearest", stream.rounded()));
   }
-  return print(lines);
+  return output.print();
 }
 
 }  // namespace
@@ -55,6 +65,8 @@ Subcommand add_classify(CLI::App& app) {
   command->add_option("PATH", options->path, "a CSV or HDF5 query file, or a directory of them")
       ->required()
       ->type_name("");
+  add_execution(*command, options->execution);
+  add_device(*command, options->execution);
   return {command, [options] { return run(*options); }};
 }
 

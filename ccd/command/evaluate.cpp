@@ -22,6 +22,7 @@ struct EvaluateOptions {
   std::string format;
   std::string chart;
   std::vector<std::string> paths;
+  ExecutionChoice execution;
 };
 
 /// A chart needs a truth: where the files tell none and nothing was asked for, it is decided.
@@ -72,11 +73,14 @@ int run(const EvaluateOptions& options) {
   if (!options.chart.empty()) {
     if (const std::string wrong = charts::check_chart_file(options.chart); !wrong.empty()) return fail(wrong);
   }
+  const auto execution = chosen_execution(options.execution);
+  if (const auto* wrong = std::get_if<std::string>(&execution)) return fail(*wrong);
   const EvaluationRequest request{.paths = options.paths,
                                   .kind = chosen_kind(options.kind),
                                   .methods = std::get<std::vector<Method>>(std::move(chosen)),
                                   .precisions = precisions(options.real),
-                                  .truth = truth_source(options)};
+                                  .truth = truth_source(options),
+                                  .execution = std::get<Execution>(execution)};
   const auto outcome = evaluate(request);
   if (const auto* wrong = std::get_if<FileError>(&outcome)) return fail(wrong->message);
   const auto& evaluation = std::get<Evaluation>(outcome);
@@ -114,6 +118,8 @@ Subcommand add_evaluate(CLI::App& app) {
       ->check(CLI::IsMember({"double", "float", "all"}));
   add_kind(*command, options->kind,
            "kind of CSV files whose path does not tell it; leaves out queries of the other kind");
+  add_execution(*command, options->execution);
+  add_device(*command, options->execution);
   add_format(*command, options->format, {"table", "json", "csv"});
   command
       ->add_option("--chart", options->chart,
@@ -124,11 +130,11 @@ Subcommand add_evaluate(CLI::App& app) {
       ->required()
       ->type_name("");
   command->footer(
-      "'uncertain' counts the signs that a method met and its bounds could not tell. Times are of one thread, reading "
-      "not\n"
-      "included; '/ tight' is the ratio to the method tight in the same type, measured in the same run. The exit "
-      "status\n"
-      "is 0 also when a method is wrong.");
+      "'uncertain' counts the signs that a method met and its bounds could not tell. Times are those of batches in "
+      "memory,\n"
+      "reading not included; '/ tight' is the ratio to the method tight in the same type, measured in the same run. "
+      "The\n"
+      "exit status is 0 also when a method is wrong.");
   return {command, [options] { return run(*options); }};
 }
 

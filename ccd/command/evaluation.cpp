@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -16,8 +17,6 @@
 namespace tightrope::ccd {
 namespace {
 
-constexpr std::size_t queries_per_block = 65536;  // 12 MiB of points: as a caller's batch they come from memory
-
 /// What the blocks of one kind gave in one precision.
 struct PrecisionEvaluation {
   Precision precision{};
@@ -26,10 +25,12 @@ struct PrecisionEvaluation {
   std::uint64_t collisions = 0;
 
   template <class Real>
-  void add(Kind kind, std::span<const Real> points, std::span<const unsigned char> truths) {
-    measure(kind, points, truths, tallies);
-    queries += points.size() / coordinates_per_query;
+  BatchStatus add(Kind kind, std::span<const Real> points, std::span<const unsigned char> truths,
+                  const Execution& execution) {
+    const Queries<Real> batch{.kind = kind, .count = points.size() / coordinates_per_query, .points = points.data()};
+    queries += batch.count;
     for (const unsigned char truth : truths) collisions += truth;
+    return measure(batch, truths, execution, tallies);
   }
 };
 
@@ -55,16 +56,27 @@ class Evaluator {
     }
   }
 
-  void add(const QueryBlock& block) {
+  std::optional<FileError> add(const QueryBlock& block) {
     KindEvaluation& evaluation = of(block.kind);
     evaluation.pending.points.insert(evaluation.pending.points.end(), block.points.begin(), block.points.end());
     append_truths(block, evaluation);
-    if (evaluation.pending.size() >= queries_per_block) run(evaluation);
+    return evaluation.pending.size() >= request_.queries_per_block ? run(evaluation) : std::nullopt;
   }
 
-  Evaluation result() {
+  /// After the last block.
+  std::optional<FileError> finish() {
     for (KindEvaluation& evaluation : kinds_) {
-      if (evaluation.pending.size() > 0) run(evaluation);
+      if (evaluation.pending.size() == 0) continue;
+      if (auto wrong = run(evaluation)) return wrong;
+    }
+    return std::nullopt;
+  }
+
+  /// What all processes have found.
+  Evaluation result(std::uint64_t rounded, Processes& processes) {
+    result_.rounded = rounded;
+    sum(processes);
+    for (const KindEvaluation& evaluation : kinds_) {
       for (const PrecisionEvaluation& precision : evaluation.precisions) {
         if (precision.queries > 0) add_rows(evaluation, precision);
       }
@@ -95,24 +107,67 @@ class Evaluator {
     for (std::size_t i = 0; i < block.truths.size(); ++i) result_.wrong_truths += block.truths[i] != exact[i] ? 1 : 0;
   }
 
-  void run(KindEvaluation& evaluation) {
+  std::optional<FileError> run(KindEvaluation& evaluation) {
     const QueryBlock& block = evaluation.pending;
+    BatchStatus status = BatchStatus::done;
     for (PrecisionEvaluation& precision : evaluation.precisions) {
-      switch (precision.precision) {
-        case Precision::in_double:
-          precision.add(block.kind, std::span(block.points),
-                        evaluation.truth_known ? std::span(block.truths) : std::span<const unsigned char>());
-          break;
-        case Precision::in_float: {
-          const SingleBlock single = in_single_precision(block, evaluation.truth_known);
-          precision.add(block.kind, std::span(single.points), single.truths);
-          result_.changed += single.changed;
-          result_.left_out += single.left_out;
-          break;
+      if (status == BatchStatus::done) status = run(block, evaluation.truth_known, precision);
+    }
+    evaluation.pending.clear();
+    if (status == BatchStatus::done) return std::nullopt;
+    return FileError{std::string(explanation(status))};
+  }
+
+  BatchStatus run(const QueryBlock& block, bool truth_known, PrecisionEvaluation& precision) {
+    switch (precision.precision) {
+      case Precision::in_double:
+        return precision.add(block.kind, std::span(block.points),
+                             truth_known ? std::span(block.truths) : std::span<const unsigned char>(),
+                             request_.execution);
+      case Precision::in_float: {
+        const SingleBlock single = in_single_precision(block, truth_known);
+        result_.changed += single.changed;
+        result_.left_out += single.left_out;
+        return precision.add(block.kind, std::span(single.points), single.truths, request_.execution);
+      }
+    }
+    return BatchStatus::invalid_argument;
+  }
+
+  /// Adds up the numbers of all processes.
+  void sum(Processes& processes) {
+    std::vector<std::uint64_t> counts = {result_.rounded, result_.wrong_truths, result_.changed, result_.left_out};
+    std::vector<double> times;
+    for (const KindEvaluation& kind : kinds_) {
+      counts.push_back(kind.truth_known ? 0 : 1);
+      for (const PrecisionEvaluation& precision : kind.precisions) {
+        counts.insert(counts.end(), {precision.queries, precision.collisions});
+        for (const Tally& tally : precision.tallies) {
+          counts.insert(counts.end(),
+                        {tally.answers_true, tally.false_positives, tally.false_negatives, tally.uncertain});
+          times.push_back(tally.nanoseconds);
         }
       }
     }
-    evaluation.pending.clear();
+    processes.sum(counts);
+    processes.sum(times);
+    auto count = counts.begin();
+    auto time = times.begin();
+    for (auto* number : {&result_.rounded, &result_.wrong_truths, &result_.changed, &result_.left_out}) {
+      *number = *count++;
+    }
+    for (KindEvaluation& kind : kinds_) {
+      kind.truth_known = *count++ == 0;
+      for (PrecisionEvaluation& precision : kind.precisions) {
+        for (auto* number : {&precision.queries, &precision.collisions}) *number = *count++;
+        for (Tally& tally : precision.tallies) {
+          for (auto* number : {&tally.answers_true, &tally.false_positives, &tally.false_negatives, &tally.uncertain}) {
+            *number = *count++;
+          }
+          tally.nanoseconds = *time++;
+        }
+      }
+    }
   }
 
   void add_rows(const KindEvaluation& kind, const PrecisionEvaluation& precision) {
@@ -122,6 +177,7 @@ class Evaluator {
       EvaluationRow row{.method = tally.method,
                         .kind = kind.pending.kind,
                         .precision = precision.precision,
+                        .execution = request_.execution,
                         .queries = precision.queries,
                         .answers_true = tally.answers_true,
                         .mistakes = std::nullopt,
@@ -140,6 +196,90 @@ class Evaluator {
   Evaluation result_;
 };
 
+/// One process's way through its share of the queries.
+class Walk {
+ public:
+  Walk(const EvaluationRequest& request, std::vector<QueryFile> files, const Processes& processes)
+      : request_(request),
+        stream_(std::move(files), {.index = processes.rank(), .count = processes.count()}),
+        evaluator_(request),
+        progress_(processes.rank() == 0 ? "evaluating" : "") {}
+
+  /// The next block, or what is left after the last one.
+  std::optional<FileError> step() {
+    if (auto wrong = stream_.next(request_.queries_per_block, block_)) return wrong;
+    if (block_.size() == 0) {
+      at_end_ = true;
+      return evaluator_.finish();
+    }
+    if (request_.truth == TruthSource::file && !block_.has_truth()) {
+      return FileError{
+          fmt::format("{}: tells no truth; --truth exact decides the queries exactly", stream_.path().string())};
+    }
+    done_ += block_.size();
+    progress_.show(done_);
+    return evaluator_.add(block_);
+  }
+
+  bool at_end() const { return at_end_; }
+  std::uint64_t done() const { return done_; }
+  const QueryStream& stream() const { return stream_; }
+  Evaluator& evaluator() { return evaluator_; }
+
+ private:
+  const EvaluationRequest& request_;
+  QueryStream stream_;
+  Evaluator evaluator_;
+  Progress progress_;
+  QueryBlock block_;
+  std::uint64_t done_ = 0;
+  bool at_end_ = false;
+};
+
+constexpr std::uint64_t nowhere = std::numeric_limits<std::uint64_t>::max();
+
+/// What those processes say of which `wrong` is the first, to all of them; some process must.
+FileError agreed(Processes& processes, bool is_first, const std::optional<FileError>& wrong) {
+  std::uint64_t teller = is_first ? processes.rank() : nowhere;
+  processes.smallest(std::span(&teller, 1));
+  return {processes.text_of(teller, is_first ? wrong->message : std::string())};
+}
+
+/// Every process goes on until none can meet an error before the first one met: the error of a single process.
+std::optional<FileError> walk_all(Walk& walk, Processes& processes) {
+  std::optional<FileError> wrong;
+  while (true) {
+    const bool working = !wrong && !walk.at_end();
+    const std::uint64_t unit = walk.stream().unit();
+    std::array<std::uint64_t, 2> first = {wrong ? unit : nowhere, working ? unit : nowhere};
+    processes.smallest(first);
+    const auto [first_error, first_working] = first;
+    if (first_error != nowhere && first_error <= first_working) {
+      return agreed(processes, wrong && unit == first_error, wrong);
+    }
+    if (first_working == nowhere) return std::nullopt;
+    if (working) wrong = walk.step();
+  }
+}
+
+/// The files, the same for all processes.
+std::variant<std::vector<QueryFile>, FileError> find_files(const EvaluationRequest& request, Processes& processes) {
+  auto found = find_query_files(request.paths, request.kind);
+  std::optional<FileError> wrong;
+  std::string list;
+  if (const auto* error = std::get_if<FileError>(&found)) {
+    wrong = *error;
+  } else {
+    for (const QueryFile& file : std::get<std::vector<QueryFile>>(found)) list += file.path.string() + "\n";
+  }
+  const bool same = processes.text_of(0, list) == list;
+  if (!wrong && !same) wrong = FileError{"the processes of this command do not see the same files"};
+  std::uint64_t unharmed = wrong ? 0 : 1;
+  processes.smallest(std::span(&unharmed, 1));
+  if (unharmed == 0) return agreed(processes, wrong.has_value(), wrong);
+  return found;
+}
+
 }  // namespace
 
 std::string_view name(Precision precision) {
@@ -152,28 +292,20 @@ std::string_view name(Precision precision) {
   return {};
 }
 
-std::variant<Evaluation, FileError> evaluate(const EvaluationRequest& request) {
-  auto found = find_query_files(request.paths, request.kind);
+std::variant<Evaluation, FileError> evaluate(const EvaluationRequest& request, Processes& processes) {
+  auto found = find_files(request, processes);
   if (auto* wrong = std::get_if<FileError>(&found)) return *wrong;
-  QueryStream stream(std::get<std::vector<QueryFile>>(std::move(found)));
-  Evaluator evaluator(request);
-  Progress progress("evaluating");
-  QueryBlock block;
-  std::uint64_t done = 0;
-  while (true) {
-    if (auto wrong = stream.next(queries_per_block, block)) return *wrong;
-    if (block.size() == 0) break;
-    if (request.truth == TruthSource::file && !block.has_truth()) {
-      return FileError{
-          fmt::format("{}: tells no truth; --truth exact decides the queries exactly", stream.path().string())};
-    }
-    evaluator.add(block);
-    done += block.size();
-    progress.show(done);
-  }
-  Evaluation evaluation = evaluator.result();
-  evaluation.rounded = stream.rounded();
-  return evaluation;
+  Walk walk(request, std::get<std::vector<QueryFile>>(std::move(found)), processes);
+  if (auto wrong = walk_all(walk, processes)) return *wrong;
+  std::uint64_t queries = walk.done();
+  processes.sum(std::span(&queries, 1));
+  if (queries == 0) return walk.stream().no_queries();
+  return walk.evaluator().result(walk.stream().rounded(), processes);
+}
+
+std::variant<Evaluation, FileError> evaluate(const EvaluationRequest& request) {
+  SingleProcess alone;
+  return evaluate(request, alone);
 }
 
 }  // namespace tightrope::ccd

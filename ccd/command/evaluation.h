@@ -8,8 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "command/device.h"
+#include "command/processes.h"
 #include "query_io/query_block.h"
-#include "tightrope/ccd.h"
 
 namespace tightrope::ccd {
 
@@ -30,6 +31,8 @@ struct EvaluationRequest {
   std::vector<Method> methods;
   std::vector<Precision> precisions = {Precision::in_double};
   TruthSource truth = TruthSource::file_if_told;
+  Execution execution = default_execution();
+  std::size_t queries_per_block = 65536;  ///< timed as one batch, and of HDF5 files the units that processes share
 };
 
 /// Counts against the truth.
@@ -43,12 +46,13 @@ struct EvaluationRow {
   Method method{};
   Kind kind{};
   Precision precision{};
+  Execution execution{};
   std::uint64_t queries = 0;
   std::uint64_t answers_true = 0;
   std::optional<Mistakes> mistakes;  ///< empty: the truth is not known
   std::uint64_t uncertain = 0;       ///< signs met that the method could not tell
   double ns_per_query = 0;
-  double time_ratio_to_tight = 0;  ///< `tight` in the same precision, measured in the same run
+  double time_ratio_to_tight = 0;  ///< `tight` in the same precision and execution, measured in the same run
 };
 
 struct Evaluation {
@@ -60,6 +64,10 @@ struct Evaluation {
   std::uint64_t left_out = 0;      ///< queries beyond the range of float, left out there
 };
 
-std::variant<Evaluation, FileError> evaluate(const EvaluationRequest& request);
+/// Each of `processes` takes its share of the files and of the blocks of HDF5 files; all get the same result: the
+/// counts that a single process finds, the times of all summed; or the error that a single process meets first. Memory
+/// does not grow with the number of queries.
+std::variant<Evaluation, FileError> evaluate(const EvaluationRequest& request, Processes& processes);
+std::variant<Evaluation, FileError> evaluate(const EvaluationRequest& request);  ///< by this process alone
 
 }  // namespace tightrope::ccd

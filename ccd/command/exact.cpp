@@ -8,6 +8,7 @@
 #include "command/choices.h"
 #include "command/command.h"
 #include "command/progress.h"
+#include "command/spool.h"
 #include "oracle/contact_time.h"
 #include "query_io/query_files.h"
 
@@ -36,7 +37,7 @@ int run(const ExactOptions& options) {
   QueryStream stream(std::get<std::vector<QueryFile>>(std::move(found)));
   Progress progress("deciding");
   QueryBlock block;
-  std::string lines;
+  Spool output;
   std::uint64_t done = 0;
   while (true) {
     constexpr std::size_t queries_per_block = 4096;
@@ -44,14 +45,15 @@ int run(const ExactOptions& options) {
     if (block.size() == 0) break;
     for (std::size_t i = 0; i < block.size(); ++i) {
       const auto points = std::span(block.points).subspan(coordinates_per_query * i).first<coordinates_per_query>();
-      lines += line(block.kind, points, options.width);
+      const std::string wrong = output.append(line(block.kind, points, options.width));
+      if (!wrong.empty()) return fail(wrong);
       progress.show(++done);
     }
   }
   if (stream.rounded() > 0) {
     warn(fmt::format("{} rational coordinates are no doubles and were rounded to nearest", stream.rounded()));
   }
-  return print(lines);
+  return output.print();
 }
 
 }  // namespace

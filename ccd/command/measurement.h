@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "tightrope/ccd.h"
+#include "command/device.h"
+#include "tightrope/batch.h"
 
 namespace tightrope::ccd {
 
@@ -18,10 +19,12 @@ struct Tally {
   std::uint64_t uncertain = 0;  ///< signs read that the method could not tell
 };
 
-/// Runs all methods over the queries in `points` (24 numbers each) and adds to their tallies. The time of a method is
-/// the median of several passes; the methods take turns, so that a change of the machine's speed meets all of them.
-/// Uncertain signs are counted in another pass, which is not timed. `truths`: one a query, or empty if not known.
+/// Runs all methods over the queries as batches and adds to their tallies. The time of a method is the median of
+/// several passes; the methods take turns, so that a change of the machine's speed meets all of them. Uncertain signs
+/// are counted in another pass, one query after another, which is not timed. `truths`: one a query, or empty if not
+/// known. After anything but `done` the tallies are worth nothing.
 template <class Real>
-void measure(Kind kind, std::span<const Real> points, std::span<const unsigned char> truths, std::span<Tally> tallies);
+[[nodiscard]] BatchStatus measure(const Queries<Real>& queries, std::span<const unsigned char> truths,
+                                  const Execution& execution, std::span<Tally> tallies);
 
 }  // namespace tightrope::ccd

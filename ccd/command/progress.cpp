@@ -9,7 +9,9 @@
 namespace tightrope::ccd {
 
 Progress::Progress(std::string what)
-    : what_(std::move(what)), terminal_(::isatty(STDERR_FILENO) == 1), next_(std::chrono::steady_clock::now()) {}
+    : what_(std::move(what)),
+      terminal_(!what_.empty() && ::isatty(STDERR_FILENO) == 1),
+      next_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
   if (shown_) fmt::print(stderr, "\r\033[K");

@@ -9,8 +9,8 @@ namespace tightrope::ccd {
 
 class Progress {
  public:
-  explicit Progress(std::string what);
-  ~Progress();  ///< clears the line
+  explicit Progress(std::string what);  ///< empty: nothing is shown
+  ~Progress();                          ///< clears the line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 

@@ -21,24 +21,33 @@ Json object(const EvaluationRow& row) {
   return {{"method", name(row.method)},
           {"kind", name(row.kind)},
           {"real", name(row.precision)},
-          {"device", "cpu"},
-          {"threads", 1},
+          {"device", name(row.execution.device)},
+          {"threads", row.execution.threads},
           {"queries", row.queries},
           {"collisions", count(&Mistakes::collisions)},
           {"false_positives", count(&Mistakes::false_positives)},
           {"false_negatives", count(&Mistakes::false_negatives)},
           {"uncertain", row.uncertain},
           {"ns_per_query", rounded(row.ns_per_query)},
-          {"time_ratio_to_tight", rounded(row.time_ratio_to_tight)}};
+          {"time_ratio_to_tight", rounded(row.time_ratio_to_tight)},
+          {"instructions", row.execution.device == Device::cpu ? Json(name(row.execution.instructions)) : Json()}};
+}
+
+/// "avx2", "avx2 x 8 threads", "gpu"
+std::string place(const Execution& execution) {
+  if (execution.device == Device::gpu) return "gpu";
+  const std::string_view instructions = name(execution.instructions);
+  return execution.threads == 1 ? std::string(instructions)
+                                : fmt::format("{} x {} threads", instructions, execution.threads);
 }
 
 }  // namespace
 
 std::string table(std::span<const EvaluationRow> rows) {
-  constexpr const char* layout = "{:<12} {:<11} {:<6} {:>9} {:>10} {:>13} {:>15} {:>15} {:>10} {:>9} {:>7}\n";
+  constexpr const char* layout = "{:<12} {:<11} {:<6} {:>9} {:>10} {:>13} {:>15} {:>15} {:>10} {:>9} {:>7}  {}\n";
   std::string text =
       fmt::format(fmt::runtime(layout), "method", "kind", "real", "queries", "collisions", "answered true",
-                  "false positives", "false negatives", "uncertain", "ns/query", "/ tight");
+                  "false positives", "false negatives", "uncertain", "ns/query", "/ tight", "on");
   for (const EvaluationRow& row : rows) {
     const auto count = [&](std::uint64_t Mistakes::*field) {
       return row.mistakes ? fmt::format("{}", (*row.mistakes).*field) : std::string("-");
@@ -46,7 +55,7 @@ std::string table(std::span<const EvaluationRow> rows) {
     text += fmt::format(fmt::runtime(layout), name(row.method), name(row.kind), name(row.precision), row.queries,
                         count(&Mistakes::collisions), row.answers_true, count(&Mistakes::false_positives),
                         count(&Mistakes::false_negatives), row.uncertain, fmt::format("{:.1f}", row.ns_per_query),
-                        fmt::format("{:.2f}", row.time_ratio_to_tight));
+                        fmt::format("{:.2f}", row.time_ratio_to_tight), place(row.execution));
   }
   return text;
 }

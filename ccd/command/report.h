@@ -12,7 +12,8 @@ namespace tightrope::ccd {
 std::string table(std::span<const EvaluationRow> rows);
 
 /// One array of objects: method, kind, real, device, threads, queries, collisions, false_positives, false_negatives,
-/// uncertain (signs met), ns_per_query, time_ratio_to_tight. collisions and false_* are null without truth.
+/// uncertain (signs met), ns_per_query, time_ratio_to_tight, instructions. collisions and false_* are null without
+/// truth.
 std::string json(std::span<const EvaluationRow> rows);
 
 /// The same fields, a header line first; null is empty.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,10 +10,10 @@
 #include "command/choices.h"
 #include "command/command.h"
 #include "command/progress.h"
+#include "command/spool.h"
 #include "command/time_check.h"
 #include "query_io/query_files.h"
-#include "tightrope/contact.h"
-#include "tightrope/impact.h"
+#include "tightrope/batch.h"
 
 namespace tightrope::ccd {
 namespace {
@@ -23,6 +24,7 @@ struct ToiOptions {
   bool check = false;
   std::string kind;
   std::string path;
+  ExecutionChoice execution;
 };
 
 constexpr const char* methods_with_times = "tightrope, safe, safe-tight";
@@ -40,15 +42,6 @@ bool has_times(Method method) {
       return false;
   }
   return false;
-}
-
-std::optional<double> time_of_impact(Method method, Kind kind, const double* points, const ImpactOptions& options) {
-  if (method == Method::tightrope) {
-    const auto impact = first_impact(pair_of(kind), points, options);
-    return impact ? std::optional(impact->time) : std::nullopt;
-  }
-  const auto contact = first_contact(kind, points, method);
-  return contact && contact->earliest <= options.t_max ? std::optional(contact->earliest) : std::nullopt;
 }
 
 /// What is wrong with the options; empty: nothing.
@@ -69,35 +62,52 @@ std::string wrong_with(const ToiOptions& options, Method method, const CLI::App&
   return {};
 }
 
+/// The times of a block: one line each to `output`, and to the check if there is one. What went wrong, if anything.
+std::string add_times(const QueryBlock& block, std::span<const double> times, Spool& output, TimeCheck* check) {
+  std::string lines;
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    fmt::format_to(std::back_inserter(lines), "{}\n", times[i]);  // "inf" for infinity
+    if (check == nullptr) continue;
+    const auto points = std::span(block.points).subspan(coordinates_per_query * i).first<coordinates_per_query>();
+    check->add(block.kind, points, std::isinf(times[i]) ? std::nullopt : std::optional(times[i]));
+  }
+  return output.append(lines);
+}
+
 /// All answers first, then the output: a malformed row leaves none of it.
 int run(const ToiOptions& options, const CLI::App& app) {
   const auto method = method_by_name(options.method);
   if (!method) return fail(fmt::format("unknown method '{}'; accepted: {}", options.method, methods_with_times));
   if (const std::string wrong = wrong_with(options, *method, app); !wrong.empty()) return fail(wrong);
+  const auto chosen = chosen_execution(options.execution);
+  if (const auto* wrong = std::get_if<std::string>(&chosen)) return fail(*wrong);
+  const auto& execution = std::get<Execution>(chosen);
+  const BatchOptions batch{.method = *method, .threads = execution.threads, .instructions = execution.instructions};
   auto found = find_query_files(std::span(&options.path, 1), chosen_kind(options.kind));
   if (auto* wrong = std::get_if<FileError>(&found)) return fail(wrong->message);
   QueryStream stream(std::get<std::vector<QueryFile>>(std::move(found)));
   Progress progress("times of impact");
   TimeCheck check(options.impact.tolerance, options.impact.t_max);
   QueryBlock block;
-  std::string lines;
+  std::vector<double> times;
+  Spool output;
   std::uint64_t done = 0;
   while (true) {
-    constexpr std::size_t queries_per_block = 4096;
+    constexpr std::size_t queries_per_block = 16384;
     if (auto wrong = stream.next(queries_per_block, block)) return fail(wrong->message);
     if (block.size() == 0) break;
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      const auto points = std::span(block.points).subspan(coordinates_per_query * i).first<coordinates_per_query>();
-      const auto time = time_of_impact(*method, block.kind, points.data(), options.impact);
-      lines += time ? fmt::format("{}\n", *time) : "inf\n";
-      if (options.check) check.add(block.kind, points, time);
-      progress.show(++done);
-    }
+    times.resize(block.size());
+    const Queries<double> queries{.kind = block.kind, .count = block.size(), .points = block.points.data()};
+    const BatchStatus status = impact_times(queries, times.data(), options.impact, batch);
+    if (status != BatchStatus::done) return fail(explanation(status));
+    const std::string wrong = add_times(block, times, output, options.check ? &check : nullptr);
+    if (!wrong.empty()) return fail(wrong);
+    progress.show(done += block.size());
   }
   if (stream.rounded() > 0) {
     warn(fmt::format("{} rational coordinates are no doubles and were rounded to nearest", stream.rounded()));
   }
-  if (const int status = print(lines); status != success || !options.check) return status;
+  if (const int status = output.print(); status != success || !options.check) return status;
   const TimeCheck::Counts& counts = check.counts();
   fmt::print(stderr, "{}: {}\n", options.method, summary(counts, options.impact.tolerance));
   const bool exact = *method == Method::tightrope;
@@ -132,6 +142,7 @@ Subcommand add_toi(CLI::App& app) {
   command->add_option("PATH", options->path, "a CSV or HDF5 query file, or a directory of them")
       ->required()
       ->type_name("");
+  add_execution(*command, options->execution);
   command->footer(
       "No time is after the first contact; inf is a proof that there is none. Of method tightrope no time is more "
       "than\n"

@@ -30,12 +30,14 @@ class Hdf5Reader final : public QueryReader {
 
   std::optional<FileError> open(std::optional<Kind> only);
   std::optional<FileError> next(std::size_t limit, QueryBlock& block) override;
+  std::uint64_t skip(std::size_t limit) override;
 
  private:
   FileError wrong(std::string_view where, std::string_view what) const {
     return {fmt::format("{}{}{}: {}", path_.string(), where.empty() ? "" : ":/", where, what)};
   }
   std::optional<FileError> open_part(Kind kind);
+  hsize_t rows_at_hand(std::size_t limit);
   std::optional<FileError> check_queries(const Part& part, const std::string& where, hsize_t& count) const;
   std::optional<FileError> check_truth(const Part& part, const std::string& where) const;
   std::optional<FileError> read_points(const Part& part, hsize_t count, QueryBlock& block) const;
@@ -166,16 +168,21 @@ std::optional<FileError> Hdf5Reader::read_truths(const Part& part, hsize_t count
   return std::nullopt;
 }
 
-std::optional<FileError> Hdf5Reader::next(std::size_t limit, QueryBlock& block) {
-  const hdf5::Quiet quiet;
-  block.clear();
+/// How many of the next queries make a block; 0 at the end. Goes on to the next part where one is over.
+hsize_t Hdf5Reader::rows_at_hand(std::size_t limit) {
   while (part_ < parts_.size() && position_ == parts_[part_].count) {
     ++part_;
     position_ = 0;
   }
-  if (part_ == parts_.size()) return std::nullopt;
+  return part_ == parts_.size() ? 0 : std::min<hsize_t>(limit, parts_[part_].count - position_);
+}
+
+std::optional<FileError> Hdf5Reader::next(std::size_t limit, QueryBlock& block) {
+  const hdf5::Quiet quiet;
+  block.clear();
+  const hsize_t count = rows_at_hand(limit);
+  if (count == 0) return std::nullopt;
   const Part& part = parts_[part_];
-  const hsize_t count = std::min<hsize_t>(limit, part.count - position_);
   block.kind = part.kind;
   if (auto error = read_points(part, count, block)) return error;
   if (part.truth) {
@@ -183,6 +190,12 @@ std::optional<FileError> Hdf5Reader::next(std::size_t limit, QueryBlock& block) 
   }
   position_ += count;
   return std::nullopt;
+}
+
+std::uint64_t Hdf5Reader::skip(std::size_t limit) {
+  const hsize_t count = rows_at_hand(limit);
+  position_ += count;
+  return count;
 }
 
 }  // namespace

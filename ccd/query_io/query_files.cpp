@@ -105,25 +105,44 @@ std::variant<std::vector<QueryFile>, FileError> find_query_files(std::span<const
 
 std::optional<FileError> QueryStream::next(std::size_t limit, QueryBlock& block) {
   block.clear();
-  while (true) {
+  for (; file_ < files_.size(); ++file_) {
     if (!reader_) {
       const QueryFile& file = files_[file_];
-      auto opened = is_hdf5(file.path) ? open_hdf5(file.path, file.kind) : open_csv(file.path, *file.kind);
+      divides_ = is_hdf5(file.path);
+      if (!divides_ && !is_mine()) {
+        ++unit_;
+        continue;
+      }
+      auto opened = divides_ ? open_hdf5(file.path, file.kind) : open_csv(file.path, *file.kind);
       if (auto* wrong = std::get_if<FileError>(&opened)) return *wrong;
       reader_ = std::get<std::unique_ptr<QueryReader>>(std::move(opened));
     }
-    if (auto wrong = reader_->next(limit, block)) return wrong;
+    if (auto wrong = next_of_file(limit, block)) return wrong;
     queries_ += block.size();
     if (block.size() > 0) return std::nullopt;
-    if (file_ + 1 == files_.size()) break;
+    if (!divides_) ++unit_;
     rounded_ += reader_->rounded();
     reader_.reset();
-    ++file_;
   }
-  if (queries_ == 0) {
-    return FileError{fmt::format("{}{}: no queries", files_.front().path.string(), files_.size() > 1 ? " .." : "")};
-  }
+  if (queries_ == 0 && share_.count == 1) return no_queries();
   return std::nullopt;
+}
+
+std::optional<FileError> QueryStream::next_of_file(std::size_t limit, QueryBlock& block) {
+  if (divides_) {
+    if (given_) ++unit_;
+    given_ = false;
+    for (; !is_mine(); ++unit_) {
+      if (reader_->skip(limit) == 0) return std::nullopt;
+    }
+  }
+  auto wrong = reader_->next(limit, block);
+  given_ = block.size() > 0;
+  return wrong;
+}
+
+FileError QueryStream::no_queries() const {
+  return {fmt::format("{}{}: no queries", files_.front().path.string(), files_.size() > 1 ? " .." : "")};
 }
 
 }  // namespace tightrope::ccd

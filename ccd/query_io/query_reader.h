@@ -23,6 +23,12 @@ class QueryReader {
   /// empty block is the end of the file. After an error the reader is not to be used again.
   [[nodiscard]] virtual std::optional<FileError> next(std::size_t limit, QueryBlock& block) = 0;
 
+  /// Passes over the queries that next(limit) would give, without reading them; how many they are. CSV files cannot: 0.
+  virtual std::uint64_t skip(std::size_t limit) {
+    static_cast<void>(limit);
+    return 0;
+  }
+
   /// Rational coordinates read so far that are no doubles and were rounded to nearest.
   virtual std::uint64_t rounded() const { return 0; }
 };

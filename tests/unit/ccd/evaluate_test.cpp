@@ -8,6 +8,7 @@
 #include "scenes/scene.h"
 #include "scenes/truth.h"
 #include "tests/unit/ccd/command_runner.h"
+#include "tightrope/batch.h"
 
 namespace tightrope::ccd {
 namespace {
@@ -56,12 +57,13 @@ TEST(Evaluate, JsonHasTheFieldsOfTheContractForEveryMethodAndKind) {
         false_negatives += answers[i] < truths[i] ? 1 : 0;
       }
       const json& row = rows[at++];
-      EXPECT_EQ(row.size(), 12U);
+      EXPECT_EQ(row.size(), 13U);
       EXPECT_EQ(row["method"], method.name);
       EXPECT_EQ(row["kind"], name(kind));
       EXPECT_EQ(row["real"], "double");
       EXPECT_EQ(row["device"], "cpu");
       EXPECT_EQ(row["threads"], 1);
+      EXPECT_EQ(row["instructions"], name(instruction_sets().back()));
       EXPECT_EQ(row["queries"], 400);
       EXPECT_EQ(row["collisions"], collisions);
       EXPECT_EQ(row["false_positives"], false_positives);
@@ -213,7 +215,7 @@ TEST(Evaluate, CsvHasTheSameFieldsAndTheTableAsManyRows) {
   std::getline(lines, values);
   EXPECT_EQ(header,
             "method,kind,real,device,threads,queries,collisions,false_positives,false_negatives,uncertain,"
-            "ns_per_query,time_ratio_to_tight");
+            "ns_per_query,time_ratio_to_tight,instructions");
   EXPECT_EQ(values.substr(0, 39), "tight,vertex-face,double,cpu,1,2,1,1,0,");
   EXPECT_FALSE(std::getline(lines, rest));
   const Outcome table = run_command(scratch, {"evaluate", all});
