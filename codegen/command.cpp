@@ -129,15 +129,19 @@ std::string interpret(const Arguments& arguments, CompileRequest& request) {
   if (!error.empty()) return error;
   if (products.size() != 1) return "--products: give one value, direct or karatsuba";
   request.products = products.front();
-  request.forms =
-      selected<Form>("--target", arguments.target,
-                     {{"cpp", {Form::scalar}}, {"simd", {Form::lanes}}, {"all", {Form::scalar, Form::lanes}}}, error);
+  request.targets = selected<Target>("--target", arguments.target,
+                                     {{"cpp", {Target::cpp}},
+                                      {"simd", {Target::simd}},
+                                      {"cuda", {Target::cuda}},
+                                      {"all", {Target::cpp, Target::simd, Target::cuda}}},
+                                     error);
   if (!error.empty()) return error;
-  if (std::find(request.forms.begin(), request.forms.end(), Form::scalar) == request.forms.end()) {
+  if (!wants(request, Target::cpp)) {
     if (arguments.tests) return "--tests: the generated tests need --target cpp";
     for (const BoundMode mode : request.modes) {
       if (!request.only_applicable_modes && (mode == BoundMode::exact || mode == BoundMode::staged)) {
-        return fmt::format("--bound: mode {} has no code for vector classes (--target simd)", name(mode));
+        return fmt::format("--bound: mode {} runs on the host, on one query at a time (needs --target cpp, not {})",
+                           name(mode), arguments.target);
       }
     }
   }
@@ -316,7 +320,8 @@ int run_command(int argc, const char* const* argv) {
   add_program_options(compile, arguments);
   compile
       .add_option("--target", arguments.target,
-                  "cpp; simd: NAME.BOUND.REAL.simd.h for vector classes (not exact, staged); a comma list, or all")
+                  "cpp; simd: NAME.BOUND.REAL.simd.h for vector classes; cuda: NAME.BOUND.REAL.cu for batches on a GPU "
+                  "(both not of exact, staged); a comma list, or all")
       ->capture_default_str();
   compile.add_flag("--tests", arguments.tests, "also write NAME.test.cpp and a CMakeLists.txt that runs it");
   compile.add_option("--depfile", arguments.depfile, "write what the outputs depend on, in make's syntax");

@@ -7,6 +7,7 @@
 #include "codegen/fuse.h"
 #include "codegen/hash.h"
 #include "codegen/print_cpp.h"
+#include "codegen/print_cuda.h"
 #include "codegen/print_exact.h"
 #include "codegen/print_staged.h"
 #include "codegen/print_tests.h"
@@ -94,7 +95,31 @@ std::vector<TextFile> exact_files(const CompileRequest& request, const std::vect
   return files;
 }
 
+/// One mode and precision, every target.
+std::vector<TextFile> bounded_files(const CompileRequest& request, std::span<const GeneratedPredicate> predicates,
+                                    HeaderOptions options, const std::string& stem) {
+  std::vector<TextFile> files;
+  const bool cuda = wants(request, Target::cuda);
+  for (const Form form : {Form::scalar, Form::lanes}) {
+    if (!(form == Form::scalar ? cuda || wants(request, Target::cpp) : wants(request, Target::simd))) continue;
+    options.form = form;
+    const std::string name = header_name(stem, options.mode, options.precision, form);
+    files.push_back({request.directory / name, validated_header(predicates, options, name)});
+  }
+  if (cuda) {
+    const std::string header = cuda_header_name(stem, options.mode, options.precision);
+    const std::string source = cuda_source_name(stem, options.mode, options.precision);
+    files.push_back({request.directory / header, formatted(print_cuda_header(predicates, options, stem), header)});
+    files.push_back({request.directory / source, formatted(print_cuda_source(predicates, options, stem), source)});
+  }
+  return files;
+}
+
 }  // namespace
+
+bool wants(const CompileRequest& request, Target target) {
+  return std::find(request.targets.begin(), request.targets.end(), target) != request.targets.end();
+}
 
 dsl::Program load(const CompileRequest& request, dsl::SourceMap& sources, dsl::Diagnostics& diagnostics) {
   dsl::Program program = dsl::load_program(request.file, sources, diagnostics, {.products = request.products});
@@ -173,17 +198,13 @@ std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl:
     for (std::size_t i = 0; i < program.predicates.size(); ++i) {
       predicates.push_back({&program.predicates[i], &bounded.predicates[i]});
     }
-    for (const Form form : request.forms) {
-      const std::string name = header_name(stem, bounded.mode, bounded.precision, form);
-      const HeaderOptions options = {source_name, hash, bounded.mode, bounded.precision, request.fma, {}, form};
-      files.push_back({request.directory / name, validated_header(predicates, options, name)});
-    }
+    HeaderOptions options = {source_name, hash, bounded.mode, bounded.precision, request.fma};
+    for (TextFile& file : bounded_files(request, predicates, options, stem)) files.push_back(std::move(file));
   }
   // Exact answers know no rounding: their filters stay unfused.
   const dsl::Program unfused =
       request.fma ? dsl::load_program(request.file, sources, diagnostics, {.products = request.products}) : program;
-  const bool scalar = std::find(request.forms.begin(), request.forms.end(), Form::scalar) != request.forms.end();
-  const std::vector<BoundMode> scalar_modes = scalar ? modes : std::vector<BoundMode>();
+  const std::vector<BoundMode> scalar_modes = wants(request, Target::cpp) ? modes : std::vector<BoundMode>();
   for (TextFile& file :
        exact_files(request, scalar_modes, unfused, {source_name, hash, BoundMode::exact, Precision::binary64}, stem,
                    diagnostics, weakening)) {

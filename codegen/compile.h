@@ -12,11 +12,18 @@
 
 namespace tightrope::codegen {
 
+/// What code is for.
+enum class Target {
+  cpp,   ///< NAME.BOUND.REAL.h
+  simd,  ///< NAME.BOUND.REAL.simd.h, for vector classes; not of the modes `exact` and `staged`
+  cuda,  ///< NAME.BOUND.REAL.h with .cuda.h and .cu, batches on a GPU; not of these modes either
+};
+
 struct CompileRequest {
   std::string file;
   std::vector<BoundMode> modes = {BoundMode::tight};
   std::vector<Precision> precisions = {Precision::binary64};
-  std::vector<Form> forms = {Form::scalar};
+  std::vector<Target> targets = {Target::cpp};
   dsl::ProductScheme products = dsl::ProductScheme::direct;
   bool only_applicable_modes = false;  ///< leave out `static` where the predicates do not admit it
   bool fma = false;                    ///< contract products into sums (codegen/fuse.h)
@@ -54,6 +61,9 @@ std::vector<BoundedProgram> bounded_programs(const dsl::Program& program, const 
 /// `weakening` is the test hook of codegen/bounds.h.
 std::optional<std::vector<TextFile>> compile(const CompileRequest& request, dsl::SourceMap& sources,
                                              dsl::Diagnostics& diagnostics, Weakening weakening = Weakening::none);
+
+/// Whether the request wants code for this.
+bool wants(const CompileRequest& request, Target target);
 
 /// What headers say of their source: the hash of the file's text and that of its imports.
 std::uint64_t source_hash(const dsl::Program& program, const dsl::SourceMap& sources);

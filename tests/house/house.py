@@ -27,7 +27,7 @@ GENERATED = r"[\w-]+\.(?:float|safe|tight|exact)\.(?:double|float)(?:\.simd)?\.h
 RUNTIME = r"runtime/tightrope/[\w/]+\.h"
 API = r"ccd/tightrope/\w+\.h"
 RULES = {
-    "runtime/": [RUNTIME],
+    "runtime/": [RUNTIME, r"cuda_runtime_api\.h"],
     "dsl/": [r"dsl/.*", r"fmt/.*"],
     "codegen/": [r"codegen/.*", r"dsl/.*", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", r"(?:clang|llvm)/.*", RUNTIME, POSIX],
     "codegen/charts/": [r"codegen/charts/.*", r"fmt/.*", POSIX],

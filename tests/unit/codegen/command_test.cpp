@@ -81,14 +81,35 @@ TEST(Command, CompileWritesOneHeaderForEveryBoundAndScalarType) {
   EXPECT_TRUE(fs::exists(folder.path() / "all" / "ranged.static.double.h"));
 }
 
+TEST(Command, TargetCudaWritesBatchesBesideTheHeaders) {
+  const ScratchFolder folder;
+  folder.write("orient2d.pred", orient2d);
+  const std::vector<std::string> batches = {"orient2d.tight.float.cu", "orient2d.tight.float.cuda.h",
+                                            "orient2d.tight.float.h"};
+  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --target cuda --real float -o cuda").status, 0);
+  EXPECT_EQ(files_in(folder.path() / "cuda"), batches);
+  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --target cuda,cpp --real float -o both").status, 0);
+  EXPECT_EQ(files_in(folder.path() / "both"), batches);
+  // What runs on the host alone is left out under `all`, and written where cpp is asked for, too.
+  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --target cuda --bound all -o all").status, 0);
+  EXPECT_FALSE(fs::exists(folder.path() / "all" / "orient2d.exact.double.h"));
+  EXPECT_TRUE(fs::exists(folder.path() / "all" / "orient2d.interval.double.cu"));
+  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --target cuda,cpp --bound exact,safe -o exact").status, 0);
+  EXPECT_EQ(files_in(folder.path() / "exact"),
+            (std::vector<std::string>{"orient2d.exact.double.h", "orient2d.safe.double.cu",
+                                      "orient2d.safe.double.cuda.h", "orient2d.safe.double.h"}));
+}
+
 TEST(Command, SameInputGivesTheSameBytesWhereverItLies) {
   const ScratchFolder folder;
   fs::create_directories(folder.path() / "elsewhere");
   folder.write("orient2d.pred", orient2d);
   folder.write("elsewhere/orient2d.pred", orient2d);
-  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --bound all --real all --tests -o a").status, 0);
+  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --bound all --real all --target all --tests -o a").status, 0);
   EXPECT_EQ(
-      tightrope(folder, "compile elsewhere/../elsewhere/orient2d.pred --bound all --real all --tests -o b").status, 0);
+      tightrope(folder, "compile elsewhere/../elsewhere/orient2d.pred --bound all --real all --target all --tests -o b")
+          .status,
+      0);
   for (const std::string& name : files_in(folder.path() / "a")) {
     EXPECT_EQ(read_text(folder.path() / "a" / name), read_text(folder.path() / "b" / name)) << name;
   }
@@ -143,8 +164,15 @@ TEST(Command, BadUsageIsOneClearLineAndStatus2) {
        "tightrope: error: --real: unknown value 'half' (accepted: double, float, all)"},
       {"compile orient2d.pred --products fast -o out",
        "tightrope: error: --products: unknown value 'fast' (accepted: direct, karatsuba)"},
-      {"compile orient2d.pred --target cuda -o out",
-       "tightrope: error: --target: unknown value 'cuda' (accepted: cpp)"},
+      {"compile orient2d.pred --target opencl -o out",
+       "tightrope: error: --target: unknown value 'opencl' (accepted: cpp, simd, cuda, all)"},
+      {"compile orient2d.pred --target cuda --bound tight,exact -o out",
+       "tightrope: error: --bound: mode exact runs on the host, on one query at a time (needs --target cpp, not cuda)"},
+      {"compile orient2d.pred --target simd --bound staged -o out",
+       "tightrope: error: --bound: mode staged runs on the host, on one query at a time (needs --target cpp, not "
+       "simd)"},
+      {"compile orient2d.pred --target cuda --tests -o out",
+       "tightrope: error: --tests: the generated tests need --target cpp"},
       {"report orient2d.pred --format xml",
        "tightrope: error: --format: unknown value 'xml' (accepted: text, json, table)"},
       {"compile missing.pred -o out", "tightrope: error: cannot read missing.pred"},
