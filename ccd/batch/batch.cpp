@@ -14,8 +14,8 @@
 #include <limits>
 #include <new>
 
-#include "batch/filter.h"
-#include "batch/source.h"
+#include "ccd/batch/filter.h"
+#include "ccd/batch/source.h"
 #include "tightrope/contact.h"
 
 namespace tightrope::ccd {
@@ -76,7 +76,7 @@ BatchStatus for_chunks(std::size_t count, int threads, const RunChunk& run_chunk
 
 /// Calls `decide(i, points)` for each query of a chunk that the filter does not settle.
 template <template <class> class Source, class Real, class Decide>
-void decide_survivors(const Source<Real>& queries, batch::Filter<Source<Real>> filter, std::size_t first,
+void decide_survivors(const Source<Real>& queries, const batch::Filter<Source, Real>* filter, std::size_t first,
                       std::size_t count, const Decide& decide) {
   std::array<Real, numbers_per_query> copy;
   if (filter == nullptr) {
@@ -84,7 +84,7 @@ void decide_survivors(const Source<Real>& queries, batch::Filter<Source<Real>> f
     return;
   }
   std::array<Index, queries_per_chunk> survivors;
-  const std::size_t left = filter(queries, first, count, survivors.data());
+  const std::size_t left = (*filter)(queries, first, count, survivors.data());
   for (std::size_t s = 0; s < left; ++s) {
     const std::size_t i = first + survivors[s];
     decide(i, batch::points_of(queries, i, copy));
@@ -95,10 +95,10 @@ void decide_survivors(const Source<Real>& queries, batch::Filter<Source<Real>> f
 template <template <class> class Source, class Real, class Begin, class Found>
 BatchStatus find_collisions(const Source<Real>& queries, const BatchOptions& options, const Begin& begin,
                             const Found& found) noexcept {
-  const auto filter = batch::filter<Source<Real>>(options.method, options.instructions.value_or(best()));
+  const batch::Filter<Source, Real> filter(options.method, queries.kind, options.instructions.value_or(best()));
   return for_chunks(queries.count, options.threads, [&](std::size_t first, std::size_t count) {
     begin(first, count);
-    decide_survivors(queries, filter, first, count, [&](std::size_t i, const Real* points) {
+    decide_survivors(queries, filter ? &filter : nullptr, first, count, [&](std::size_t i, const Real* points) {
       if (collides(queries.kind, points, options.method)) found(i);
     });
   });
@@ -146,11 +146,11 @@ BatchStatus times(const Source<Real>& queries, double* times, const ImpactOption
     return BatchStatus::invalid_argument;
   }
   // What stays apart by less than the separation is no contact, but has a time.
-  const auto filter =
-      separation ? nullptr : batch::filter<Source<Real>>(options.method, options.instructions.value_or(best()));
+  const batch::Filter<Source, Real> filter(options.method, queries.kind, options.instructions.value_or(best()));
+  const bool filters = filter && !separation;
   return for_chunks(queries.count, options.threads, [&](std::size_t first, std::size_t count) {
     std::fill_n(times + first, count, std::numeric_limits<double>::infinity());
-    decide_survivors(queries, filter, first, count, [&](std::size_t i, const Real* points) {
+    decide_survivors(queries, filters ? &filter : nullptr, first, count, [&](std::size_t i, const Real* points) {
       times[i] = time_of_impact(queries.kind, points, options.method, impact);
     });
   });

@@ -4,22 +4,37 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ccd/batch/vector_tests.h"
 #include "tightrope/batch.h"
 
 namespace tightrope::ccd::batch {
 
-/// Queries of a chunk, by their index in it.
+/// A query of a chunk.
 using Index = std::uint16_t;
 inline constexpr std::size_t queries_per_chunk = 4096;  ///< 768 KiB of doubles: survivors are read again from the cache
 
-/// Looks at queries first .. first + count - 1, count <= queries_per_chunk. Writes the indices (from `first` on) of
-/// those that it cannot prove to be what the method answers `false` to, ascending, and returns how many. `survivors`
-/// must hold queries_per_chunk indices.
-template <class Source>
-using Filter = std::size_t (*)(const Source& queries, std::size_t first, std::size_t count, Index* survivors);
+template <template <class> class Source, class Real>
+using RunFilter = std::size_t (*)(const Source<Real>& queries, const VectorTests<Real>& tests, std::size_t first,
+                                  std::size_t count, Index* survivors);
 
-/// None: the method has no vector stages there.
-template <class Source>
-Filter<Source> filter(Method method, InstructionSet instructions);
+template <template <class> class Source, class Real>
+class Filter {
+ public:
+  Filter(Method method, Kind kind, InstructionSet instructions);
+
+  /// False: this method has no vector stages with these instructions.
+  explicit operator bool() const { return run_ != nullptr && tests_.first != nullptr; }
+
+  /// Looks at queries first .. first + count - 1, count <= queries_per_chunk. Writes the indices, from `first` on and
+  /// ascending, of those that it cannot prove the method to answer `false` to, and returns how many. `survivors` must
+  /// hold queries_per_chunk indices.
+  std::size_t operator()(const Source<Real>& queries, std::size_t first, std::size_t count, Index* survivors) const {
+    return run_(queries, tests_, first, count, survivors);
+  }
+
+ private:
+  RunFilter<Source, Real> run_;
+  VectorTests<Real> tests_;
+};
 
 }  // namespace tightrope::ccd::batch

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "batch/filter.h"
+#include "tightrope/batch.h"
 
 namespace tightrope::ccd {
 namespace {
@@ -11,7 +11,6 @@ struct NamedSet {
   std::string_view name;
 };
 constexpr auto names = std::to_array<NamedSet>({{InstructionSet::scalar, "scalar"},
-                                                {InstructionSet::sse2, "sse2"},
                                                 {InstructionSet::sse4, "sse4"},
                                                 {InstructionSet::neon, "neon"},
                                                 {InstructionSet::avx2, "avx2"},
@@ -32,19 +31,5 @@ std::optional<InstructionSet> instruction_set_by_name(std::string_view name) {
   }
   return std::nullopt;
 }
-
-std::span<const InstructionSet> instruction_sets() {
-  static constexpr std::array there{InstructionSet::scalar};
-  return there;
-}
-
-template <class Source>
-batch::Filter<Source> batch::filter(Method, InstructionSet) {
-  return nullptr;
-}
-template batch::Filter<Queries<double>> batch::filter(Method, InstructionSet);
-template batch::Filter<Queries<float>> batch::filter(Method, InstructionSet);
-template batch::Filter<MeshQueries<double>> batch::filter(Method, InstructionSet);
-template batch::Filter<MeshQueries<float>> batch::filter(Method, InstructionSet);
 
 }  // namespace tightrope::ccd

@@ -42,10 +42,10 @@ struct MeshQueries {
   const std::uint32_t* indices;  ///< 4 vertices a query, in the order of `Kind`: v f0 f1 f2; ea0 ea1 eb0 eb1
 };
 
-/// Instruction sets that the library was built for, best last. `scalar`: one query after another.
-enum class InstructionSet : unsigned char { scalar, sse2, sse4, neon, avx2, avx512 };
+/// What a batch's first tests run on. `scalar`: one query after another.
+enum class InstructionSet : unsigned char { scalar, sse4, neon, avx2, avx512 };
 
-std::string_view name(InstructionSet instructions);  ///< "scalar", "sse2", ..
+std::string_view name(InstructionSet instructions);  ///< "scalar", "sse4", ..
 std::optional<InstructionSet> instruction_set_by_name(std::string_view name);
 /// Those that this build has and this machine can run, best last; `scalar` is always among them.
 std::span<const InstructionSet> instruction_sets();

@@ -1,0 +1,78 @@
+/// Method `tightrope` on vectors (ccd/impact/filter.h): its first look, and the later filters in one.
+
+#include <limits>
+
+#include "ccd/batch/targets.h"
+#include "ccd/batch/vector_tests.h"
+#include "ccd/geometry.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ccd/batch/vector_tightrope.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#if TIGHTROPE_HAS_VECTORS
+HWY_BEFORE_NAMESPACE();
+#include <tightrope/highway-inl.h>
+
+#include "edge_edge.tight.double.simd.h"
+#include "separating_plane.safe.double.simd.h"
+#include "separating_plane.safe.float.simd.h"
+#include "vertex_face.tight.double.simd.h"
+
+// After the generated headers:
+#include "ccd/batch/vector_tests-inl.h"
+
+namespace tightrope::TIGHTROPE_LANES {
+namespace {
+
+using namespace ccd;
+
+template <Kind kind, class Real>
+unsigned first_look(const Real* numbers, std::size_t pitch) {
+  return bits_of_others<Real>(are_separated_by_plane<kind, true>(Tile<Real>(numbers, pitch)));
+}
+
+template <Kind kind>
+unsigned later_filters(const double* numbers, std::size_t pitch) {
+  const Tile<double> tile(numbers, pitch);
+  const auto finite = are_within<double>(tile, std::numeric_limits<double>::max());
+  const auto separated = hn::Or(are_separated_on_axis<kind>(tile), are_separated_by_plane<kind, false>(tile));
+  const auto in_range = hn::And(are_moderate(tile), are_spread(tile));
+  const auto excluded = hn::And(in_range, are_excluded_by_hulls<kind, bound::tight>(tile));
+  return bits_of_others<double>(hn::Or(hn::And(finite, separated), excluded));
+}
+
+template <Kind kind, class Real>
+batch::VectorTests<Real> tests() {
+  if constexpr (sizeof(Real) == 8) {
+    return {first_look<kind, Real>, later_filters<kind>, nullptr};
+  } else {
+    return {first_look<kind, Real>, nullptr, later_filters<kind>};
+  }
+}
+
+}  // namespace
+
+template <class Real>
+batch::VectorTests<Real> tightrope_tests(Kind kind) {
+  return kind == Kind::vertex_face ? tests<Kind::vertex_face, Real>() : tests<Kind::edge_edge, Real>();
+}
+
+}  // namespace tightrope::TIGHTROPE_LANES
+HWY_AFTER_NAMESPACE();
+#endif
+
+#if HWY_ONCE
+namespace tightrope::ccd {
+
+template <class Real>
+batch::VectorTests<Real> batch::tightrope_tests(Kind kind, InstructionSet instructions) {
+  switch (instructions) { TIGHTROPE_RETURN_FOR_INSTRUCTIONS(tightrope_tests<Real>(kind)) }
+  return {};
+}
+template batch::VectorTests<double> batch::tightrope_tests(Kind, InstructionSet);
+template batch::VectorTests<float> batch::tightrope_tests(Kind, InstructionSet);
+
+}  // namespace tightrope::ccd
+#endif

@@ -1,0 +1,110 @@
+/// Lanes of Highway's vectors, for generated code of `tightrope compile --target simd`. The one header here that needs
+/// more than the standard library: Highway 1.0 or newer, and only of those who include it.
+///
+/// Included after hwy/highway.h and before the generated headers, once for each target of hwy/foreach_target.h, between
+/// HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE:
+///
+///   HWY_BEFORE_NAMESPACE();
+///   #include <tightrope/highway-inl.h>
+///   #include "door.tight.double.simd.h"      // tightrope::lanes::HWY_NAMESPACE::door<bound::tight, double>
+///   ...
+///   HWY_AFTER_NAMESPACE();
+///
+/// Every operation gives each lane the bits that arithmetic.h gives the single number, NaNs' payloads excepted: Highway
+/// never fuses or reorders, and products pass a barrier, for g++ contracts vector arithmetic as it does scalar.
+
+#if defined(TIGHTROPE_HIGHWAY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TIGHTROPE_HIGHWAY_INL_H
+#undef TIGHTROPE_HIGHWAY_INL_H
+#else
+#define TIGHTROPE_HIGHWAY_INL_H
+#endif
+
+#ifndef TIGHTROPE_LANES
+#define TIGHTROPE_LANES lanes::HWY_NAMESPACE
+#endif
+#include <tightrope/lanes.h>
+
+namespace tightrope::TIGHTROPE_LANES {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// One number a lane.
+template <class Real>
+struct Lanes {
+  using Tag = hn::ScalableTag<Real>;
+  using Vector = hn::Vec<Tag>;
+
+  Lanes() = default;
+  HWY_INLINE Lanes(Vector vector) : v(vector) {}
+  HWY_INLINE Lanes(Real x) : v(hn::Set(Tag(), x)) {}
+
+  friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
+  friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
+  friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
+  friend HWY_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.v); }
+
+  friend HWY_INLINE Lanes product(Lanes a, Lanes b) {
+    Vector p = hn::Mul(a.v, b.v);
+#if HWY_ARCH_X86 && (HWY_COMPILER_GCC || HWY_COMPILER_CLANG)
+    asm("" : "+v"(p.raw));
+#elif HWY_ARCH_ARM && (HWY_COMPILER_GCC || HWY_COMPILER_CLANG)
+    asm("" : "+w"(p.raw));
+#endif
+    return p;
+  }
+  friend HWY_INLINE Lanes magnitude(Lanes a) { return hn::Abs(a.v); }
+  friend HWY_INLINE Lanes square_root(Lanes a) { return hn::Sqrt(a.v); }
+
+  /// b > a ? b : a. On x86 that is the instruction: it gives its second operand where either is NaN.
+  friend HWY_INLINE Lanes max_magnitude(Lanes a, Lanes b) {
+#if HWY_ARCH_X86
+    return hn::Max(b.v, a.v);
+#else
+    return hn::IfThenElse(hn::Gt(b.v, a.v), b.v, a.v);
+#endif
+  }
+  friend HWY_INLINE Lanes minimum(Lanes a, Lanes b) {
+    return hn::IfThenElse(hn::Lt(a.v, b.v), a.v, hn::IfThenElse(hn::Le(b.v, a.v), b.v, hn::Add(a.v, b.v)));
+  }
+  friend HWY_INLINE Lanes maximum(Lanes a, Lanes b) {
+    return hn::IfThenElse(hn::Gt(a.v, b.v), a.v, hn::IfThenElse(hn::Ge(b.v, a.v), b.v, hn::Add(a.v, b.v)));
+  }
+  friend HWY_INLINE Lanes certain_nonzero(Lanes a, Lanes bound) {
+    return hn::IfThenElse(hn::Gt(hn::Abs(a.v), bound.v), a.v, not_a_number().v);
+  }
+  friend HWY_INLINE Lanes certain_nonnegative(Lanes a, Lanes bound) {
+    return hn::IfThenElse(hn::Ge(a.v, bound.v), a.v, not_a_number().v);
+  }
+  friend HWY_INLINE Lanes choose(Lanes condition, Lanes first, Lanes second) {
+    return hn::IfThenElse(hn::Ge(condition.v, hn::Zero(Tag())), first.v, second.v);
+  }
+#if HWY_NATIVE_FMA
+  friend HWY_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) { return hn::MulAdd(a.v, b.v, c.v); }
+#endif
+  friend HWY_INLINE Lanes normalizer(Lanes largest) {
+    HWY_ALIGN Real x[hn::MaxLanes(Tag())];
+    hn::Store(largest.v, Tag(), x);
+    for (Real& lane : x) lane = tightrope::normalizer(lane);
+    return hn::Load(Tag(), x);
+  }
+
+  Vector v;
+
+ private:
+  HWY_INLINE static Lanes not_a_number() { return static_cast<Real>(__builtin_nan("")); }
+};
+
+/// Lanes whose sign is definite: `sign` of single numbers (sign.h).
+template <class Real>
+HWY_INLINE auto is_positive(const Bounded<Lanes<Real>>& x) {
+  return hn::Gt(x.value.v, x.bound.v);
+}
+template <class Real>
+HWY_INLINE auto is_negative(const Bounded<Lanes<Real>>& x) {
+  return hn::Lt(x.value.v, hn::Neg(x.bound.v));
+}
+
+}  // namespace tightrope::TIGHTROPE_LANES
+
+#endif  // include guard that foreach_target.h turns over
