@@ -60,8 +60,8 @@ BatchStatus for_chunks(std::size_t count, int threads, const RunChunk& run_chunk
       for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk);
       return BatchStatus::done;
     }
-    const int most = threads == 0 ? oneapi::tbb::info::default_concurrency() : threads;
-    oneapi::tbb::task_arena arena(most);
+    const int processors = oneapi::tbb::info::default_concurrency();
+    oneapi::tbb::task_arena arena(threads == 0 ? processors : std::min(threads, processors));
     arena.execute([&] {
       using Range = oneapi::tbb::blocked_range<std::size_t>;
       oneapi::tbb::parallel_for(Range(0, chunks), [&](const Range& part) {

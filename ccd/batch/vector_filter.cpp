@@ -90,19 +90,16 @@ void place(const Source<Real>& queries, std::size_t i, Tile<Number>& tile, std::
 }
 
 /// Hardware foresees few streams, and no jumps: cache lines that come some hundred nanoseconds later are asked for.
-/// Addresses beyond the end do no harm.
 template <class Real>
 HWY_INLINE void prefetch(const Queries<Real>& queries, std::size_t i) {
   constexpr std::size_t line = 64 / sizeof(Real);
   if (queries.layout == Layout::by_coordinate) {
-    constexpr std::size_t ahead = 8 * line;
-    for (std::size_t c = 0; c < numbers_per_query; ++c) {
-      __builtin_prefetch(queries.points + c * queries.pitch + i + ahead);
-    }
+    const std::size_t ahead = std::min(i + 8 * line, queries.count - 1);
+    for (std::size_t c = 0; c < numbers_per_query; ++c) __builtin_prefetch(queries.points + c * queries.pitch + ahead);
   } else {
-    constexpr std::size_t ahead = 48 * line;
-    const Real* next = queries.points + numbers_per_query * i + ahead;
-    for (std::size_t n = 0; n < numbers_per_query * number_of_lanes<Real>; n += line) __builtin_prefetch(next + n);
+    constexpr std::size_t numbers = numbers_per_query * number_of_lanes<Real>;
+    const std::size_t ahead = std::min(numbers_per_query * i + 48 * line, numbers_per_query * queries.count - numbers);
+    for (std::size_t n = 0; n < numbers; n += line) __builtin_prefetch(queries.points + ahead + n);
   }
 }
 

@@ -52,8 +52,8 @@ std::span<const InstructionSet> instruction_sets();
 
 struct BatchOptions {
   Method method = Method::tightrope;
-  int threads = 1;                             ///< 0: as many as the machine has processors
-  std::optional<InstructionSet> instructions;  ///< none: the best there is
+  int threads = 1;                                  ///< 0, or more than there are processors: as many as there are
+  std::optional<InstructionSet> instructions = {};  ///< none: the best there is
 };
 
 enum class BatchStatus : unsigned char {
