@@ -1,5 +1,5 @@
 # Installs this build into a scratch prefix, moves the prefix (nothing in it may remember where it was), and uses it as
-# a stranger would: both examples as projects of their own, and generated tests of a predicate compiled by hand.
+# a stranger would: examples as projects of their own, and generated tests of a predicate compiled by hand.
 #
 #   cmake -DBUILD=.. -DSOURCE=.. -DSCRATCH=.. -DGENERATOR=.. -DCXX=.. -P install_test.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -49,11 +49,12 @@ endfunction()
 file(GLOB_RECURSE package_files ${prefix}/*.cmake ${prefix}/*.h)
 expect_no_paths("nothing" ${package_files})
 
-foreach(example IN ITEMS first_predicate ccd_query)
+foreach(example IN ITEMS first_predicate ccd_query batch)
   file(COPY ${SOURCE}/examples/${example} DESTINATION ${SCRATCH}/projects)  # away from the repository
 endforeach()
 build_and_test(${SCRATCH}/projects/first_predicate ${SCRATCH}/build/first_predicate 2)
 build_and_test(${SCRATCH}/projects/ccd_query ${SCRATCH}/build/ccd_query 1)
+build_and_test(${SCRATCH}/projects/batch ${SCRATCH}/build/batch 1)
 
 run(${prefix}/bin/tightrope compile ${SCRATCH}/projects/first_predicate/side_of_door.pred --bound all --real double --tests
     -o ${SCRATCH}/by_hand)
