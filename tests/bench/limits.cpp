@@ -7,7 +7,6 @@ namespace tightrope::bench {
 
 // limit_kernels.cpp, once for each of them.
 const LimitKernels& limit_kernels_scalar();
-const LimitKernels& limit_kernels_sse2();
 const LimitKernels& limit_kernels_sse4();
 const LimitKernels& limit_kernels_avx2();
 const LimitKernels& limit_kernels_avx512();
@@ -28,9 +27,9 @@ struct Set {
 constexpr Set sets[] = {
     {InstructionSet::scalar, false, limit_kernels_scalar},
 #if defined(__x86_64__)
-    {InstructionSet::sse2, false, limit_kernels_sse2},      {InstructionSet::sse4, false, limit_kernels_sse4},
-    {InstructionSet::avx2, false, limit_kernels_avx2},      {InstructionSet::avx512, false, limit_kernels_avx512},
-    {InstructionSet::avx2, true, limit_kernels_avx2_fused}, {InstructionSet::avx512, true, limit_kernels_avx512_fused},
+    {InstructionSet::sse4, false, limit_kernels_sse4},          {InstructionSet::avx2, false, limit_kernels_avx2},
+    {InstructionSet::avx2, true, limit_kernels_avx2_fused},     {InstructionSet::avx512, false, limit_kernels_avx512},
+    {InstructionSet::avx512, true, limit_kernels_avx512_fused},
 #elif defined(__aarch64__)
     {InstructionSet::neon, false, limit_kernels_neon},
     {InstructionSet::neon, true, limit_kernels_neon_fused},

@@ -24,7 +24,7 @@ GENERATED = r"[\w-]+\.(?:float|safe|tight|exact)\.(?:double|float)(?:\.simd)?\.h
 
 # Folder (the longest prefix wins): what its files may include besides the standard library, as patterns of the path in
 # the repository or, if the repository has no such file, of the name as it is written.
-RUNTIME = r"runtime/tightrope/[\w/]+\.h"
+RUNTIME = r"runtime/tightrope/[\w/-]+\.h"
 API = r"ccd/tightrope/\w+\.h"
 RULES = {
     "runtime/": [RUNTIME, r"cuda_runtime_api\.h"],
