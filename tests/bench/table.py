@@ -159,7 +159,8 @@ class Limits:
     def nearer(self, batch, operations):
         """The least nanoseconds that one query can take, and why; none where nothing was measured."""
         times = []
-        memory = self.bytes.get((batch.instructions, batch.threads))
+        # Whatever reads fastest: memory does not know who asks.
+        memory = max((rate for (_, threads), rate in self.bytes.items() if threads == batch.threads), default=None)
         if memory and batch.queries * batch.bytes_per_query > self.largest_cache:
             times.append((batch.bytes_per_query / memory, "memory"))
         rate = self.operations.get((batch.real, batch.instructions, batch.threads))
@@ -202,7 +203,10 @@ def number(x):
 
 
 def ratio(x, y):
-    return DASH if x is None or y is None else f"{x / y:.2f}"
+    """Two digits after the point; below a tenth, two that count."""
+    if x is None or y is None:
+        return DASH
+    return f"{x / y:.2f}" if x / y >= 0.1 else f"{x / y:.2g}"
 
 
 def markdown(headings, rows):

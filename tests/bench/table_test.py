@@ -60,10 +60,18 @@ class TableTest(unittest.TestCase):
     def test_limits_are_those_of_the_run(self):
         def halve_the_memory(run):
             for line in run["benchmarks"]:
-                if line["run_name"] == "limit/read/avx2/threads:1":
+                if line["run_name"] in ("limit/read/scalar/threads:1", "limit/read/avx2/threads:1"):
                     line["bytes"] /= 2
         self.assertIn("| tightrope | vertex-face | double | avx2 | 10.0 | 100 | 16.0 memory | 1.60 |",
                       make_table(changed(halve_the_memory)).stdout)
+
+    def test_what_reads_fastest_is_the_limit_of_all(self):
+        def hasten_one_by_one(run):
+            for line in run["benchmarks"]:
+                if line["run_name"] == "limit/read/scalar/threads:1":
+                    line["bytes"] *= 2
+        self.assertIn("| tightrope | vertex-face | double | avx2 | 10.0 | 100 | 4.00 memory | 0.40 |",
+                      make_table(changed(hasten_one_by_one)).stdout)
 
     def test_operations_are_those_of_the_compiler(self):
         operations = copy.deepcopy(OPERATIONS)
