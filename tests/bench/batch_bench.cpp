@@ -1,5 +1,6 @@
-/// Batches of queries: every method, kind, precision and instruction set, and from there layouts, results, numbers of
-/// queries and of threads, each alone; beside them what the machine can do at most. table.py makes a table of the JSON.
+/// Batches of queries: every method, kind, precision and instruction set, and from there layouts, queries a call,
+/// results and numbers of threads, each alone; beside them what the machine can do at most. table.py makes a table of
+/// the JSON.
 ///
 ///   batch_bench [--queries=N] [--kept=FOLDER] [Google Benchmark's options]
 ///
@@ -79,7 +80,7 @@ struct Case {
   Method method = Method::tightrope;
   InstructionSet instructions = InstructionSet::scalar;
   int threads = 1;
-  std::size_t count = 0;  ///< 0: all of the source
+  std::size_t each = 0;  ///< queries a call, one call after another; 0: all in one
 };
 
 struct Options {
@@ -103,7 +104,7 @@ class Sets {
   const std::vector<unsigned char>& answers(Source source, Kind kind, Method method) {
     auto& answers = answers_[{source, kind, method, sizeof(Real)}];
     if (answers.empty()) {
-      const auto queries = this->queries<Real>(source, kind).by_query(this->queries<Real>(source, kind).count());
+      const auto queries = this->queries<Real>(source, kind).by_query();
       answers.resize(queries.count);
       collides(kind, queries.points, queries.count, answers.data(), method);
     }
@@ -139,23 +140,24 @@ class Sets {
   std::map<std::tuple<Source, Kind, Method, std::size_t>, std::vector<unsigned char>> answers_;
 };
 
-/// Room for the results of a case, one call of the batch, and whether it got right what was asked.
+/// Room for the results of a case, calls of the batch, and whether they got right what was asked.
 class Call {
  public:
   Call(const Case& what, std::size_t count) : what_(what), count_(count) {
     what.result == Result::times ? times_.resize(count) : bytes_.resize(count);
   }
 
+  /// The queries are those from `first` on; a multiple of 8 where bits are wanted.
   template <class Queries>
-  BatchStatus operator()(const Queries& queries) {
+  BatchStatus operator()(const Queries& queries, std::size_t first) {
     const BatchOptions options{what_.method, what_.threads, what_.instructions};
     switch (what_.result) {
       case Result::bytes:
-        return collides(queries, bytes_.data(), options);
+        return collides(queries, bytes_.data() + first, options);
       case Result::bits:
-        return collides_bits(queries, bytes_.data(), options);
+        return collides_bits(queries, bytes_.data() + first / 8, options);
       case Result::times:
-        return impact_times(queries, times_.data(), {}, options);
+        return impact_times(queries, times_.data() + first, {}, options);
     }
     return BatchStatus::invalid_argument;
   }
@@ -195,41 +197,42 @@ class Call {
 template <class Real>
 void run(benchmark::State& state, Sets& sets, const Case& what) {
   auto& set = sets.queries<Real>(what.source, what.kind);
-  const std::size_t count = what.count == 0 ? set.count() : what.count;
-  Call call(what, count);
-  const auto time = [&](const auto& queries) {
-    BatchStatus status = BatchStatus::done;
+  Call call(what, set.count());
+  BatchStatus status = BatchStatus::done;
+  const auto time = [&](const auto& call_all) {
     for (auto _ : state) {
-      status = call(queries);
+      call_all();
       benchmark::ClobberMemory();
     }
-    if (status != BatchStatus::done) state.SkipWithError("the batch was refused");
   };
   double bytes_per_query = 24 * sizeof(Real);
   switch (what.shape) {
     case Shape::by_query:
-      time(set.by_query(count));
+      time([&, each = what.each == 0 ? set.count() : what.each] {
+        for (std::size_t first = 0; first < set.count(); first += each) {
+          status = std::max(status, call(set.by_query(first, std::min(each, set.count() - first)), first));
+        }
+      });
       break;
     case Shape::by_coordinate:
-      time(set.by_coordinate(count));
+      time([&, queries = set.by_coordinate()] { status = call(queries, 0); });
       break;
-    case Shape::mesh: {
-      const auto queries = set.of_mesh(count);
-      time(queries);
+    case Shape::mesh:
+      time([&, queries = set.of_mesh()] { status = call(queries, 0); });
       bytes_per_query = 16 + static_cast<double>(6 * sizeof(Real) * set.vertices()) / static_cast<double>(set.count());
       break;
-    }
   }
+  if (status != BatchStatus::done) state.SkipWithError("the batch was refused");
   // Contact in the sense of the times of safe and safe-tight is wider than that of their answers.
   const bool comparable = what.result != Result::times || what.method == Method::tightrope;
   if (comparable && !call.agrees(sets.answers<Real>(what.source, what.kind, what.method))) {
     state.SkipWithError("not the answers of the queries one by one");
   }
-  state.counters["queries"] = static_cast<double>(count);
+  state.counters["queries"] = static_cast<double>(set.count());
   state.counters["bytes_per_query"] = bytes_per_query;
   state.counters["reported"] = static_cast<double>(call.reported());
   state.counters["per_query"] = benchmark::Counter(
-      static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      static_cast<double>(set.count()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 std::string label(const Case& what) {
@@ -240,7 +243,7 @@ std::string label(const Case& what) {
     text.append("/").append(part);
   }
   text.append("/threads:").append(std::to_string(what.threads));
-  if (what.count != 0) text.append("/queries:").append(std::to_string(what.count));
+  if (what.each != 0) text.append("/each:").append(std::to_string(what.each));
   return text;
 }
 
@@ -277,7 +280,7 @@ void add_methods(Sets& sets, Kind kind) {
   }
 }
 
-/// With the best instructions: layouts, results, threads, numbers of queries, one after another.
+/// With the best instructions: layouts, queries a call, results, threads, one of them changed at a time.
 void add_shapes(Sets& sets, Kind kind, std::size_t most) {
   const InstructionSet best = instruction_sets().back();
   for (const Method method : compared) {
@@ -289,9 +292,9 @@ void add_shapes(Sets& sets, Kind kind, std::size_t most) {
       other.shape = shape;
       add(sets, other);
     }
-    for (std::size_t count = 100; count < most; count *= 10) {
+    for (std::size_t each = 10; each < most; each *= 10) {
       Case other = what;
-      other.count = count;
+      other.each = each;
       add(sets, other);
     }
     Case bits = what;

@@ -39,28 +39,28 @@ QuerySet<Real>::QuerySet(ccd::Kind kind, const std::vector<double>& points) : ki
 }
 
 template <class Real>
-ccd::Queries<Real> QuerySet<Real>::by_query(std::size_t count) const {
-  return {kind_, count, by_query_.data()};
+ccd::Queries<Real> QuerySet<Real>::by_query(std::size_t first, std::size_t count) const {
+  return {kind_, count, by_query_.data() + numbers_per_query * first};
 }
 
 template <class Real>
-ccd::Queries<Real> QuerySet<Real>::by_coordinate(std::size_t count) {
+ccd::Queries<Real> QuerySet<Real>::by_coordinate() {
   if (by_coordinate_.empty()) {
     by_coordinate_.resize(by_query_.size());
-    for (std::size_t i = 0; i < this->count(); ++i) {
+    for (std::size_t i = 0; i < count(); ++i) {
       for (std::size_t c = 0; c < numbers_per_query; ++c) {
-        by_coordinate_[c * this->count() + i] = by_query_[numbers_per_query * i + c];
+        by_coordinate_[c * count() + i] = by_query_[numbers_per_query * i + c];
       }
     }
   }
-  return {kind_, count, by_coordinate_.data(), ccd::Layout::by_coordinate, this->count()};
+  return {kind_, count(), by_coordinate_.data(), ccd::Layout::by_coordinate, count()};
 }
 
 template <class Real>
-ccd::MeshQueries<Real> QuerySet<Real>::of_mesh(std::size_t count) {
+ccd::MeshQueries<Real> QuerySet<Real>::of_mesh() {
   if (indices_.empty()) {
     std::unordered_map<Vertex<Real>, std::uint32_t, HashOfVertex<Real>> known;
-    for (std::size_t i = 0; i < this->count(); ++i) {
+    for (std::size_t i = 0; i < count(); ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
         const Real* at = by_query_.data() + numbers_per_query * i + 3 * j;
         const Vertex<Real> vertex{at[0], at[1], at[2], at[12], at[13], at[14]};
@@ -73,7 +73,7 @@ ccd::MeshQueries<Real> QuerySet<Real>::of_mesh(std::size_t count) {
       }
     }
   }
-  return {kind_, count, vertices_t0_.data(), vertices_t1_.data(), indices_.data()};
+  return {kind_, count(), vertices_t0_.data(), vertices_t1_.data(), indices_.data()};
 }
 
 template class QuerySet<double>;

@@ -18,10 +18,11 @@ class QuerySet {
   QuerySet(ccd::Kind kind, const std::vector<double>& points);
 
   std::size_t count() const { return by_query_.size() / 24; }
-  ccd::Queries<Real> by_query(std::size_t count) const;
-  ccd::Queries<Real> by_coordinate(std::size_t count);
+  ccd::Queries<Real> by_query() const { return by_query(0, count()); }
+  ccd::Queries<Real> by_query(std::size_t first, std::size_t count) const;
+  ccd::Queries<Real> by_coordinate();
   /// Vertices that several queries use are stored once.
-  ccd::MeshQueries<Real> of_mesh(std::size_t count);
+  ccd::MeshQueries<Real> of_mesh();
   std::size_t vertices() const { return vertices_t0_.size() / 3; }  ///< of the mesh, once it was asked for
 
  private:

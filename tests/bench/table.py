@@ -175,7 +175,7 @@ class Batch:
     """One benchmark of a batch: what its name tells, and nanoseconds a query."""
 
     NAME = re.compile(r"batch/(?P<source>[\w-]+)/(?P<kind>[\w-]+)/(?P<real>\w+)/(?P<layout>[\w-]+)/(?P<results>\w+)"
-                      r"/(?P<method>[\w-]+)/(?P<instructions>\w+)/threads:(?P<threads>\d+)(?P<part>/queries:\d+)?")
+                      r"/(?P<method>[\w-]+)/(?P<instructions>\w+)/threads:(?P<threads>\d+)(?:/each:(?P<each>\d+))?")
 
     def __init__(self, path, name, measurement):
         match = self.NAME.match(name)
@@ -183,14 +183,14 @@ class Batch:
             raise Malformed(f"{path}: {name}: not a batch's name")
         for key, value in match.groupdict().items():
             setattr(self, key, value)
-        self.threads = int(self.threads)
         self.queries = counter(path, name, measurement, "queries")
+        self.threads, self.each = int(self.threads), int(self.each or self.queries)
         self.bytes_per_query = counter(path, name, measurement, "bytes_per_query")
         self.ns = measurement.nanoseconds(name) / self.queries
 
     def is_plain(self):
-        """Of the whole set, by query, bytes wanted, one thread."""
-        return self.layout == "by-query" and self.results == "bytes" and self.threads == 1 and not self.part
+        """The whole set in one call, by query, bytes wanted, one thread."""
+        return self.layout == "by-query" and self.results == "bytes" and self.threads == 1 and self.each == self.queries
 
 
 def number(x):
@@ -246,7 +246,7 @@ class Table:
         return None
 
     def plain(self, batch):
-        """The same method and instructions on the same queries, by query, bytes wanted, one thread."""
+        """The same method and instructions on the same queries in one call, by query, bytes wanted, one thread."""
         for other in self.batches:
             if other.is_plain() and all(getattr(other, key) == getattr(batch, key)
                                         for key in ("source", "kind", "real", "method", "instructions")):
@@ -271,9 +271,9 @@ class Table:
             if batch.source != "cloth-fold" or batch.is_plain():
                 continue
             rows.append([batch.method, batch.kind, batch.instructions, batch.layout, batch.results,
-                         f"{batch.queries:,.0f}", batch.threads, number(batch.ns), *self.limit_cells(batch),
+                         f"{batch.each:,}", batch.threads, number(batch.ns), *self.limit_cells(batch),
                          ratio(self.plain(batch), batch.ns)])
-        return markdown(["method", "kind", "instructions", "layout", "results", "queries", "threads", "ns a query",
+        return markdown(["method", "kind", "instructions", "layout", "results", "queries a call", "threads", "ns a query",
                          "limit, ns", "of the limit", "times the table above"], rows) if rows else ""
 
     def others(self):
@@ -310,7 +310,7 @@ def batch_sections(path, operations):
     table = Table(batches, limits, operations)
     sections = [("Limits", limits_table(limits) if limits.bytes or limits.operations else ""),
                 ("Methods: cloth-fold, by query, one thread", table.methods()),
-                ("Layouts, results, numbers of queries, threads: cloth-fold, double precision", table.shapes()),
+                ("Layouts, results, queries a call, threads: cloth-fold, double precision", table.shapes()),
                 ("Other queries, double precision, one thread", table.others())]
     text = "# Benchmarks\n\n" + machine(context, repetitions)
     return text + "".join(f"\n## {title}\n\n{body}" for title, body in sections if body)
