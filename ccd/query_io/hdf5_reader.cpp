@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "query_io/hdf5_handle.h"
+#include "query_io/hdf5_dataset.h"
 #include "query_io/query_reader.h"
 
 namespace tightrope::ccd {
@@ -37,6 +37,7 @@ class Hdf5Reader final : public QueryReader {
     return {fmt::format("{}{}{}: {}", path_.string(), where.empty() ? "" : ":/", where, what)};
   }
   std::optional<FileError> open_part(Kind kind);
+  std::optional<FileError> open_dataset(const Handle& group, Kind kind, const char* name, Handle& dataset) const;
   hsize_t rows_at_hand(std::size_t limit);
   std::optional<FileError> check_queries(const Part& part, const std::string& where, hsize_t& count) const;
   std::optional<FileError> check_truth(const Part& part, const std::string& where) const;
@@ -56,15 +57,6 @@ std::string path_in_file(Kind kind, const char* dataset) {
 }
 
 bool exists(hid_t where, const char* name) { return H5Lexists(where, name, H5P_DEFAULT) > 0; }
-
-/// The extents of a dataset, empty if they cannot be told.
-std::vector<hsize_t> extents(const Handle& dataset) {
-  const Handle space(H5Dget_space(dataset.get()), H5Sclose);
-  if (!space || H5Sget_simple_extent_type(space.get()) != H5S_SIMPLE) return {};
-  std::vector<hsize_t> sizes(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.get()), 0)));
-  if (H5Sget_simple_extent_dims(space.get(), sizes.data(), nullptr) < 0) return {};
-  return sizes;
-}
 
 std::string shape(const std::vector<hsize_t>& sizes) {
   return sizes.empty() ? "a scalar" : fmt::format("{}", fmt::join(sizes, " x "));
@@ -90,22 +82,27 @@ std::optional<FileError> Hdf5Reader::open_part(Kind kind) {
   const Handle group(H5Gopen2(file_.get(), hdf5::group_name(kind), H5P_DEFAULT), H5Gclose);
   if (!group) return wrong(hdf5::group_name(kind), "not a group");
   if (!exists(group.get(), hdf5::queries_name)) return wrong(where, "missing dataset");
-  Part part{.kind = kind,
-            .queries = Handle(H5Dopen2(group.get(), hdf5::queries_name, H5P_DEFAULT), H5Dclose),
-            .truth = {},
-            .count = 0};
+  Part part{.kind = kind, .queries = {}, .truth = {}, .count = 0};
+  if (auto error = open_dataset(group, kind, hdf5::queries_name, part.queries)) return error;
   if (auto error = check_queries(part, where, part.count)) return error;
   if (exists(group.get(), hdf5::truth_name)) {
-    part.truth = Handle(H5Dopen2(group.get(), hdf5::truth_name, H5P_DEFAULT), H5Dclose);
+    if (auto error = open_dataset(group, kind, hdf5::truth_name, part.truth)) return error;
     if (auto error = check_truth(part, path_in_file(kind, hdf5::truth_name))) return error;
   }
   parts_.push_back(std::move(part));
   return std::nullopt;
 }
 
+std::optional<FileError> Hdf5Reader::open_dataset(const Handle& group, Kind kind, const char* name,
+                                                  Handle& dataset) const {
+  auto opened = hdf5::open_rows(group.get(), name);
+  if (const auto* fault = std::get_if<std::string>(&opened)) return wrong(path_in_file(kind, name), *fault);
+  dataset = std::get<Handle>(std::move(opened));
+  return std::nullopt;
+}
+
 std::optional<FileError> Hdf5Reader::check_queries(const Part& part, const std::string& where, hsize_t& count) const {
-  if (!part.queries) return wrong(where, "not a readable dataset");
-  const std::vector<hsize_t> sizes = extents(part.queries);
+  const std::vector<hsize_t> sizes = hdf5::extents(part.queries);
   if (sizes.size() != 3 || sizes[1] != 8 || sizes[2] != 3) {
     return wrong(where, fmt::format("shape is {} instead of n x 8 x 3", shape(sizes)));
   }
@@ -118,8 +115,7 @@ std::optional<FileError> Hdf5Reader::check_queries(const Part& part, const std::
 }
 
 std::optional<FileError> Hdf5Reader::check_truth(const Part& part, const std::string& where) const {
-  if (!part.truth) return wrong(where, "not a readable dataset");
-  const std::vector<hsize_t> sizes = extents(part.truth);
+  const std::vector<hsize_t> sizes = hdf5::extents(part.truth);
   if (sizes.size() != 1 || sizes[0] != part.count) {
     return wrong(where, fmt::format("shape is {} instead of {}, the number of queries", shape(sizes), part.count));
   }
@@ -129,22 +125,27 @@ std::optional<FileError> Hdf5Reader::check_truth(const Part& part, const std::st
   return std::nullopt;
 }
 
-/// Reads the rows [first, first + count) of a dataset of rank `rank` as `type`.
-bool read_rows(const Handle& dataset, int rank, hsize_t first, hsize_t count, hid_t type, void* values) {
-  const hsize_t start[3] = {first, 0, 0};
-  const hsize_t size[3] = {count, 8, 3};
-  const Handle file_space(H5Dget_space(dataset.get()), H5Sclose);
-  const Handle memory_space(H5Screate_simple(rank, size, nullptr), H5Sclose);
-  return file_space && memory_space &&
-         H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start, nullptr, size, nullptr) >= 0 &&
-         H5Dread(dataset.get(), type, memory_space.get(), file_space.get(), H5P_DEFAULT, values) >= 0;
+/// "3 .. 17": the first rows of [first, first + count) that cannot be read, chunk by chunk.
+std::string unreadable_rows(const Handle& dataset, int rank, hsize_t first, hsize_t count) {
+  const hsize_t chunk = hdf5::rows_per_chunk(dataset);
+  std::vector<double> values(std::min(chunk, count) * coordinates_per_query);
+  const hsize_t last = first + count - 1;
+  for (hsize_t from = first; from <= last;) {
+    const hsize_t to = std::min(last, from - from % chunk + (chunk - 1));
+    if (!hdf5::read_rows(dataset, rank, from, to - from + 1, H5T_NATIVE_DOUBLE, values.data())) {
+      return fmt::format("{} .. {}", from, to);
+    }
+    from = to + 1;
+  }
+  return fmt::format("{} .. {}", first, last);
 }
 
 std::optional<FileError> Hdf5Reader::read_points(const Part& part, hsize_t count, QueryBlock& block) const {
   const std::string where = path_in_file(part.kind, hdf5::queries_name);
   block.points.resize(count * coordinates_per_query);
-  if (!read_rows(part.queries, 3, position_, count, H5T_NATIVE_DOUBLE, block.points.data())) {
-    return wrong(where, fmt::format("queries from {} on cannot be read (truncated or damaged)", position_));
+  if (!hdf5::read_rows(part.queries, 3, position_, count, H5T_NATIVE_DOUBLE, block.points.data())) {
+    const std::string rows = unreadable_rows(part.queries, 3, position_, count);
+    return wrong(where, fmt::format("queries {} cannot be read (truncated or damaged)", rows));
   }
   const auto bad = std::find_if(block.points.begin(), block.points.end(), [](double x) { return !std::isfinite(x); });
   if (bad == block.points.end()) return std::nullopt;
@@ -155,8 +156,9 @@ std::optional<FileError> Hdf5Reader::read_points(const Part& part, hsize_t count
 std::optional<FileError> Hdf5Reader::read_truths(const Part& part, hsize_t count, QueryBlock& block) {
   const std::string where = path_in_file(part.kind, hdf5::truth_name);
   truth_numbers_.resize(count);
-  if (!read_rows(part.truth, 1, position_, count, H5T_NATIVE_INT, truth_numbers_.data())) {
-    return wrong(where, fmt::format("truths from {} on cannot be read (truncated or damaged)", position_));
+  if (!hdf5::read_rows(part.truth, 1, position_, count, H5T_NATIVE_INT, truth_numbers_.data())) {
+    const std::string rows = unreadable_rows(part.truth, 1, position_, count);
+    return wrong(where, fmt::format("truths {} cannot be read (truncated or damaged)", rows));
   }
   for (std::size_t i = 0; i < count; ++i) {
     const int truth = truth_numbers_[i];

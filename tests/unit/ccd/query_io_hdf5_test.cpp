@@ -1,12 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
-#include <numeric>
 
-#include "query_io/hdf5_handle.h"
-#include "query_io/query_reader.h"
-#include "query_io/query_writer.h"
+#include "tests/unit/ccd/hdf5_file.h"
 #include "tests/unit/ccd/scratch_directory.h"
 
 /// LeakSanitizer: on damaged files libhdf5 1.10 itself leaks what it had begun to read.
@@ -15,77 +11,6 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
 
 namespace tightrope::ccd {
 namespace {
-
-using hdf5::Handle;
-
-/// A file as other programs might write it.
-class Hdf5File {
- public:
-  explicit Hdf5File(const std::filesystem::path& path)
-      : path_(path), file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {}
-
-  template <class T>
-  Hdf5File& dataset(const char* name, std::vector<hsize_t> shape, hid_t file_type, hid_t type,
-                    const std::vector<T>& values) {
-    const Handle parents(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-    H5Pset_create_intermediate_group(parents.get(), 1);
-    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
-    const Handle made(H5Dcreate2(file_.get(), name, file_type, space.get(), parents.get(), H5P_DEFAULT, H5P_DEFAULT),
-                      H5Dclose);
-    if (!values.empty()) {
-      EXPECT_GE(H5Dwrite(made.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
-    }
-    return *this;
-  }
-  Hdf5File& queries(const char* name, const std::vector<double>& points, hid_t file_type = H5T_IEEE_F64LE) {
-    return dataset(name, {points.size() / 24, 8, 3}, file_type, H5T_NATIVE_DOUBLE, points);
-  }
-  Hdf5File& truth(const char* name, const std::vector<int>& truths, hid_t file_type = H5T_STD_U8LE) {
-    return dataset(name, {truths.size()}, file_type, H5T_NATIVE_INT, truths);
-  }
-  Hdf5File& group(const char* name) {
-    const Handle made(H5Gcreate2(file_.get(), name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-    return *this;
-  }
-  std::filesystem::path close() {
-    file_.close();
-    return path_;
-  }
-
- private:
-  std::filesystem::path path_;
-  Handle file_;
-};
-
-std::vector<double> counting(std::size_t queries) {
-  std::vector<double> points(24 * queries);
-  std::iota(points.begin(), points.end(), 0.0);
-  return points;
-}
-
-struct Contents {
-  std::vector<QueryBlock> blocks;
-  std::string error;
-};
-
-Contents read(const std::filesystem::path& path, std::size_t limit = 1000) {
-  Contents contents;
-  auto opened = open_hdf5(path, {});
-  if (auto* wrong = std::get_if<FileError>(&opened)) {
-    contents.error = wrong->message;
-    return contents;
-  }
-  QueryReader& reader = *std::get<std::unique_ptr<QueryReader>>(opened);
-  while (true) {
-    QueryBlock block;
-    if (auto wrong = reader.next(limit, block)) {
-      contents.error = wrong->message;
-      return contents;
-    }
-    if (block.size() == 0) return contents;
-    contents.blocks.push_back(block);
-  }
-}
 
 TEST(Hdf5, FloatsOf32BitsAndFilesWithoutTruth) {
   const ScratchDirectory scratch;
@@ -192,36 +117,6 @@ TEST(Hdf5, WrongValuesAreErrorsThatNameTheQuery) {
     EXPECT_EQ(read(file.close(), 3).error,
               path.string() + ":/edge-edge/truth[3]: truth " + std::to_string(bad) + " is neither 0 nor 1");
   }
-}
-
-/// Of every truncation and of bytes overwritten anywhere: an error or some answer, and never a crash.
-TEST(Hdf5, TruncatedAndDamagedFilesAreNoCrash) {
-  const ScratchDirectory scratch;
-  const std::filesystem::path path = scratch.path() / "q.h5";
-  {
-    auto created = create_hdf5(path);
-    QueryBlock block;
-    block.points = counting(40);
-    block.truths.assign(40, 1);
-    ASSERT_FALSE(std::get<std::unique_ptr<QueryWriter>>(created)->append(block));
-    ASSERT_FALSE(std::get<std::unique_ptr<QueryWriter>>(created)->commit());
-  }
-  const std::string whole = text_of(path);
-  ASSERT_EQ(read(path).error, "");
-  for (std::size_t length = 0; length < whole.size(); length += 4999) {
-    const std::string file = scratch.write("cut.h5", whole.substr(0, length));
-    EXPECT_NE(read(file).error, "") << length;
-  }
-  int errors = 0;
-  for (std::size_t at = 0; at < 4096; at += 17) {
-    std::string damaged = whole;
-    damaged[at] = static_cast<char>(~damaged[at]);
-    errors += read(scratch.write("damaged.h5", damaged)).error.empty() ? 0 : 1;
-  }
-  EXPECT_GT(errors, 10);
-  EXPECT_EQ(
-      read(scratch.write("text.h5", "not HDF5")).error,
-      (scratch.path() / "text.h5").string() + ": not a readable HDF5 file (truncated, damaged or of another format)");
 }
 
 }  // namespace
