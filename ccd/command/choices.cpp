@@ -1,6 +1,7 @@
 #include "command/choices.h"
 
 #include <fmt/format.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <thread>
@@ -48,6 +49,13 @@ std::variant<std::vector<Method>, std::string> chosen_methods(std::string_view t
 
 namespace {
 
+/// Those that this process may run on, which a launcher may have limited.
+int processors() {
+  cpu_set_t set;
+  if (::sched_getaffinity(0, sizeof(set), &set) == 0) return CPU_COUNT(&set);
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 std::string instruction_names() {
   std::string names;
   for (const InstructionSet set : instruction_sets())
@@ -80,8 +88,7 @@ std::variant<Execution, std::string> chosen_execution(const ExecutionChoice& cho
   if (std::string why = why_unusable(execution.device); !why.empty()) {
     return fmt::format("--device {}: {}", choice.device, why);
   }
-  execution.threads =
-      choice.threads > 0 ? choice.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  execution.threads = choice.threads > 0 ? choice.threads : processors();
   if (choice.instructions.empty()) return execution;
   const auto wanted = instruction_set_by_name(choice.instructions);
   const auto there = instruction_sets();

@@ -16,6 +16,7 @@ inline constexpr int promise_broken = 1;  ///< only where the exact truth was as
 struct Subcommand {
   CLI::App* app;
   std::function<int()> run;
+  bool shares_queries = false;  ///< among the processes that an MPI launcher started
 };
 
 Subcommand add_methods(CLI::App& app);
@@ -28,7 +29,7 @@ Subcommand add_exact(CLI::App& app);
 Subcommand add_stability(CLI::App& app);
 Subcommand add_fit(CLI::App& app);
 
-/// "tightrope-ccd: error: ..." on stderr; gives bad_usage back.
+/// "tightrope-ccd: error: ..." on stderr; gives bad_usage back. Of several processes only the first prints.
 int fail(std::string_view message);
 void warn(std::string_view message);
 

@@ -9,6 +9,7 @@
 #include "command/choices.h"
 #include "command/command.h"
 #include "command/evaluation.h"
+#include "command/mpi.h"
 #include "command/report.h"
 
 namespace tightrope::ccd {
@@ -81,11 +82,11 @@ int run(const EvaluateOptions& options) {
                                   .precisions = precisions(options.real),
                                   .truth = truth_source(options),
                                   .execution = std::get<Execution>(execution)};
-  const auto outcome = evaluate(request);
+  const auto outcome = evaluate(request, *mpi::processes());
   if (const auto* wrong = std::get_if<FileError>(&outcome)) return fail(wrong->message);
   const auto& evaluation = std::get<Evaluation>(outcome);
   tell_notes(evaluation);
-  if (!options.chart.empty()) {
+  if (!options.chart.empty() && mpi::is_first()) {
     if (evaluation.rows.empty()) return fail("there are no queries to draw a chart of");
     const std::string wrong =
         charts::write_chart(evaluation_chart(evaluation.rows, names_of(options.paths)), options.chart);
@@ -135,7 +136,7 @@ Subcommand add_evaluate(CLI::App& app) {
       "reading not included; '/ tight' is the ratio to the method tight in the same type, measured in the same run. "
       "The\n"
       "exit status is 0 also when a method is wrong.");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run(*options); }, true};
 }
 
 }  // namespace tightrope::ccd

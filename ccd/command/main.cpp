@@ -9,17 +9,21 @@
 #include <vector>
 
 #include "command/command.h"
+#include "command/mpi.h"
 
 namespace tightrope::ccd {
 
 int fail(std::string_view message) {
-  fmt::print(stderr, "tightrope-ccd: error: {}\n", message);
+  if (mpi::is_first()) fmt::print(stderr, "tightrope-ccd: error: {}\n", message);
   return bad_usage;
 }
 
-void warn(std::string_view message) { fmt::print(stderr, "tightrope-ccd: warning: {}\n", message); }
+void warn(std::string_view message) {
+  if (mpi::is_first()) fmt::print(stderr, "tightrope-ccd: warning: {}\n", message);
+}
 
 int print(std::string_view text) {
+  if (!mpi::is_first()) return success;
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   return written ? success : fail("cannot write to standard output");
 }
@@ -64,11 +68,16 @@ int run(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == success) return app.exit(error);  // --help, --version
+    if (error.get_exit_code() == success) return mpi::is_first() ? app.exit(error) : success;  // --help, --version
     return tell_parse_error(app, error);
   }
+  if (const std::string fault = mpi::fault(); !fault.empty()) return fail(fault);
   for (const Subcommand& command : commands) {
-    if (command.app->parsed()) return command.run();
+    if (!command.app->parsed()) continue;
+    if (!command.shares_queries && mpi::processes()->count() > 1) {
+      return fail(fmt::format("{} is for one process; several can share only evaluate", command.app->get_name()));
+    }
+    return command.run();
   }
   return fail("no command");
 }
@@ -76,4 +85,7 @@ int run(int argc, const char* const* argv) {
 }  // namespace
 }  // namespace tightrope::ccd
 
-int main(int argc, char** argv) { return tightrope::ccd::run(argc, argv); }
+int main(int argc, char** argv) {
+  const tightrope::ccd::mpi::Session session;
+  return tightrope::ccd::run(argc, argv);
+}

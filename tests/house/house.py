@@ -19,7 +19,7 @@ source_location span sstream stack stdexcept stop_token streambuf string string_
 system_error thread tuple type_traits typeindex typeinfo unordered_map unordered_set utility valarray variant vector
 version cassert cctype cerrno cfenv cfloat cinttypes climits clocale cmath csetjmp csignal cstdarg cstddef cstdint
 cstdio cstdlib cstring ctime cuchar cwchar cwctype""".split())
-POSIX = r"unistd\.h|signal\.h|spawn\.h|fcntl\.h|sys/\w+\.h"
+POSIX = r"unistd\.h|sched\.h|signal\.h|spawn\.h|fcntl\.h|sys/\w+\.h"
 GENERATED = r"[\w-]+\.(?:float|safe|tight|exact)\.(?:double|float)(?:\.simd)?\.h"
 
 # Folder (the longest prefix wins): what its files may include besides the standard library, as patterns of the path in
@@ -41,6 +41,7 @@ RULES = {
     "ccd/fit/": [r"ccd/fit/.*", API, r"fmt/.*", RUNTIME, r"(?:unit_)?look\.(?:safe|static)\.(?:double|float)\.h"],
     "ccd/command/": [r"ccd/(?:command|scenes|oracle|query_io|stability|fit)/.*", API, r"ccd/query\.h",
                      r"ccd/impact/(?:query|stage)\.h", r"codegen/charts/.*", r"fmt/.*", r"CLI/.*", r"nlohmann/.*", POSIX],
+    "ccd/command/mpi.cpp": [r"ccd/command/.*", r"mpi\.h"],
 }
 INCLUDE_ROOTS = ["", "ccd", "runtime"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
