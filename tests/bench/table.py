@@ -163,7 +163,8 @@ class Limits:
         memory = max((rate for (_, threads), rate in self.bytes.items() if threads == batch.threads), default=None)
         if memory and batch.queries * batch.bytes_per_query > self.largest_cache:
             times.append((batch.bytes_per_query / memory, "memory"))
-        rate = self.operations.get((batch.real, batch.instructions, batch.threads))
+        rates = self.fused if batch.is_fused() else self.operations
+        rate = rates.get((batch.real, batch.instructions, batch.threads))
         predicates, bound, stage = FIRST_STAGES.get(batch.method, ({}, "", ""))
         count = operations.get((predicates.get(batch.kind), bound, batch.real, stage))
         if rate and count:
@@ -175,7 +176,7 @@ class Batch:
     """One benchmark of a batch: what its name tells, and nanoseconds a query."""
 
     NAME = re.compile(r"batch/(?P<source>[\w-]+)/(?P<kind>[\w-]+)/(?P<real>\w+)/(?P<layout>[\w-]+)/(?P<results>\w+)"
-                      r"/(?P<method>[\w-]+)/(?P<instructions>\w+)/threads:(?P<threads>\d+)(?:/each:(?P<each>\d+))?")
+                      r"/(?P<method>[\w-]+)/(?P<instructions>\w+)(?P<fused>/fused)?/threads:(?P<threads>\d+)(?:/each:(?P<each>\d+))?")
 
     def __init__(self, path, name, measurement):
         match = self.NAME.match(name)
@@ -187,6 +188,13 @@ class Batch:
         self.threads, self.each = int(self.threads), int(self.each or self.queries)
         self.bytes_per_query = counter(path, name, measurement, "bytes_per_query")
         self.ns = measurement.nanoseconds(name) / self.queries
+
+    def is_fused(self):
+        return bool(self.fused)
+
+    def code(self):
+        """Instruction set, and whether products and sums are fused."""
+        return f"{self.instructions} fused" if self.is_fused() else self.instructions
 
     def is_plain(self):
         """The whole set in one call, by query, bytes wanted, one thread."""
@@ -249,7 +257,7 @@ class Table:
         """The same method and instructions on the same queries in one call, by query, bytes wanted, one thread."""
         for other in self.batches:
             if other.is_plain() and all(getattr(other, key) == getattr(batch, key)
-                                        for key in ("source", "kind", "real", "method", "instructions")):
+                                        for key in ("source", "kind", "real", "method", "instructions", "fused")):
                 return other.ns
         return None
 
@@ -258,7 +266,7 @@ class Table:
         for batch in self.batches:
             if batch.source != "cloth-fold" or not batch.is_plain():
                 continue
-            rows.append([batch.method, batch.kind, batch.real, batch.instructions, number(batch.ns),
+            rows.append([batch.method, batch.kind, batch.real, batch.code(), number(batch.ns),
                          number(1e3 / batch.ns), *self.limit_cells(batch), ratio(self.scalar(batch, "tight"), batch.ns),
                          *(ratio(ns, batch.ns) for ns in PUBLISHED.values())])
         return markdown(["method", "kind", "precision", "instructions", "ns a query", "million queries/s",
@@ -270,7 +278,7 @@ class Table:
         for batch in self.batches:
             if batch.source != "cloth-fold" or batch.is_plain():
                 continue
-            rows.append([batch.method, batch.kind, batch.instructions, batch.layout, batch.results,
+            rows.append([batch.method, batch.kind, batch.code(), batch.layout, batch.results,
                          f"{batch.each:,}", batch.threads, number(batch.ns), *self.limit_cells(batch),
                          ratio(self.plain(batch), batch.ns)])
         return markdown(["method", "kind", "instructions", "layout", "results", "queries a call", "threads", "ns a query",
@@ -281,7 +289,7 @@ class Table:
         for batch in self.batches:
             if batch.source == "cloth-fold":
                 continue
-            rows.append([batch.source, batch.method, batch.kind, batch.instructions, f"{batch.queries:,.0f}",
+            rows.append([batch.source, batch.method, batch.kind, batch.code(), f"{batch.queries:,.0f}",
                          number(batch.ns), *self.limit_cells(batch), ratio(self.scalar(batch, batch.method), batch.ns)])
         return markdown(["queries", "method", "kind", "instructions", "number", "ns a query", "limit, ns", "of the limit",
                          "times scalar"], rows) if rows else ""
@@ -297,7 +305,8 @@ def machine(context, repetitions):
     load = context.get("load_avg")
     if isinstance(load, list) and load and isinstance(load[0], (int, float)):
         facts.append(f"load average {load[0]:.2f} at the start")
-    return f"{date}. {'; '.join(facts)}. Medians of {repetitions}.\n"
+    runs = f"Medians of {repetitions}" if repetitions > 1 else "One repetition"
+    return f"{date}. {'; '.join(facts)}. {runs}.\n"
 
 
 def batch_sections(path, operations):

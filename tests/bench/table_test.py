@@ -73,6 +73,13 @@ class TableTest(unittest.TestCase):
         self.assertIn("| tightrope | vertex-face | double | avx2 | 10.0 | 100 | 4.00 memory | 0.40 |",
                       make_table(changed(hasten_one_by_one)).stdout)
 
+    def test_fused_operations_have_a_limit_of_their_own(self):
+        def drop_reads(run):
+            run["benchmarks"] = [line for line in run["benchmarks"] if not line["name"].startswith("limit/read/")]
+        text = make_table(changed(drop_reads)).stdout
+        self.assertIn("| tightrope | edge-edge | double | avx2 | 10.0 | 100 | 2.50 arithmetic |", text)
+        self.assertIn("| tightrope | edge-edge | double | avx2 fused | 9.00 | 111 | 2.00 arithmetic |", text)
+
     def test_operations_are_those_of_the_compiler(self):
         operations = copy.deepcopy(OPERATIONS)
         for predicate in operations:
