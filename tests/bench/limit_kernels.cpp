@@ -79,7 +79,7 @@ Real products_and_sums(Real factor, Real term, std::size_t steps) {
   return sum;
 }
 
-constexpr ReadKernel reads[] = {read<1, 4>, read<1, 8>, read<2, 4>, read<4, 2>, read<4, 4>, read<8, 1>};
+constexpr ReadKernel reads[] = {read<1, 8>, read<2, 4>, read<4, 2>, read<4, 4>, read<8, 1>, read<8, 2>};
 
 template <class Real, std::size_t chains>
 constexpr ArithmeticKernel<Real> kernel{products_and_sums<Real, chains>, lanes<Real>, chains};
