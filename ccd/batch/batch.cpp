@@ -16,6 +16,7 @@
 
 #include "ccd/batch/filter.h"
 #include "ccd/batch/source.h"
+#include "ccd/impact/query.h"
 #include "tightrope/contact.h"
 
 namespace tightrope::ccd {
@@ -96,10 +97,17 @@ template <template <class> class Source, class Real, class Begin, class Found>
 BatchStatus find_collisions(const Source<Real>& queries, const BatchOptions& options, const Begin& begin,
                             const Found& found) noexcept {
   const batch::Filter<Source, Real> filter(options.method, queries.kind, options.instructions.value_or(best()));
+  // The vector stages have asked for separations of what they leave.
+  const bool unseparated = filter && options.method == Method::tightrope;
+  const auto collides_after_filter = [&](const Real* points) {
+    if (!unseparated) return collides(queries.kind, points, options.method);
+    const auto& in_double = in_double_precision(points);
+    return tightrope_collides_unseparated(queries.kind, in_double.data());
+  };
   return for_chunks(queries.count, options.threads, [&](std::size_t first, std::size_t count) {
     begin(first, count);
     decide_survivors(queries, filter ? &filter : nullptr, first, count, [&](std::size_t i, const Real* points) {
-      if (collides(queries.kind, points, options.method)) found(i);
+      if (collides_after_filter(points)) found(i);
     });
   });
 }

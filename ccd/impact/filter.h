@@ -65,21 +65,26 @@ Filtered filtered_by_polynomials(Kind kind, const double* points, bool scaled, Q
   return result;
 }
 
-/// All but the first look. Not inlined: that settles nearly every query, with few registers and no frame.
+/// The stages after the separations.
 template <class Signs>
-[[gnu::noinline]] Filtered filtered_further(Kind kind, const double* points, Question question, double t_max,
-                                            Signs& signs) {
-  const bool moderate = has_moderate_coordinates(points);
-  if (!moderate && !has_finite_coordinates(points)) return {Stage::exact, {Verdict::open}};
-  if (separated(kind, points, signs) || separated_by_plane<false>(kind, points, signs)) {
-    return {Stage::separation, {Verdict::no_contact}};
-  }
-  if (moderate && spread(points) >= least_spread<double>) {
+Filtered filtered_unseparated(Kind kind, const double* points, Question question, double t_max, Signs& signs) {
+  if (has_moderate_coordinates(points) && spread(points) >= least_spread<double>) {
     return filtered_by_polynomials(kind, points, false, question, t_max, signs);
   }
   const NormalizedQuery<double> query = normalize(points);
   if (query.kind != NormalizedQuery<double>::Kind::scaled) return {Stage::exact, {Verdict::open}};
   return filtered_by_polynomials(kind, query.points.data(), true, question, t_max, signs);
+}
+
+/// All but the first look. Not inlined: that settles nearly every query, with few registers and no frame.
+template <class Signs>
+[[gnu::noinline]] Filtered filtered_further(Kind kind, const double* points, Question question, double t_max,
+                                            Signs& signs) {
+  if (!has_moderate_coordinates(points) && !has_finite_coordinates(points)) return {Stage::exact, {Verdict::open}};
+  if (separated(kind, points, signs) || separated_by_plane<false>(kind, points, signs)) {
+    return {Stage::separation, {Verdict::no_contact}};
+  }
+  return filtered_unseparated(kind, points, question, t_max, signs);
 }
 
 /// `points` holds 24 numbers; not finite ones leave the query open.

@@ -19,12 +19,16 @@
 namespace tightrope::ccd {
 namespace {
 
-template <class Real, class Signs>
-bool decide(Kind kind, const Real* points, Signs& signs) {
-  const Filtered f = filtered(kind, points, Question::whether, 1, signs);
+template <class Real>
+bool decide_after(const Filtered& f, Kind kind, const Real* points) {
   if (f.stage != Stage::exact) return f.finding.verdict == Verdict::contact;
   const auto& exact_points = in_double_precision(points);
   return !has_finite_coordinates(points) || exact_contact(pair_of(kind), exact_points.data());
+}
+
+template <class Real, class Signs>
+bool decide(Kind kind, const Real* points, Signs& signs) {
+  return decide_after(filtered(kind, points, Question::whether, 1, signs), kind, points);
 }
 
 /// The time of first contact; coordinates are finite.
@@ -59,6 +63,11 @@ template bool tightrope_collides(Kind, const double*);
 template bool tightrope_collides(Kind, const double*, CountingSignReader&);
 template bool tightrope_collides(Kind, const float*);
 template bool tightrope_collides(Kind, const float*, CountingSignReader&);
+
+bool tightrope_collides_unseparated(Kind kind, const double* points) {
+  SignReader signs;
+  return decide_after(filtered_unseparated(kind, points, Question::whether, 1, signs), kind, points);
+}
 
 template <class Real>
 Stage deciding_stage(Kind kind, const Real* points, Question question) {

@@ -15,6 +15,9 @@ namespace tightrope::ccd {
 template <class Real>
 std::optional<Impact> first_touch(Kind kind, const Real* points, double tolerance, double t_max);
 
+/// tightrope_collides, without the first look and the separations: they have been asked, or would be in vain.
+bool tightrope_collides_unseparated(Kind kind, const double* points);
+
 /// The stage that decides the query.
 template <class Real>
 Stage deciding_stage(Kind kind, const Real* points, Question question);
