@@ -42,8 +42,22 @@ bool has_times(Method method) {
 
 InstructionSet best() { return instruction_sets().back(); }
 
+bool has_fused_form(const BatchOptions& options) {
+  switch (options.instructions.value_or(best())) {
+    case InstructionSet::scalar:
+    case InstructionSet::sse4:
+      return false;
+    case InstructionSet::neon:
+    case InstructionSet::avx2:
+    case InstructionSet::avx512:
+      return options.method == Method::tightrope;
+  }
+  return false;
+}
+
 bool is_valid(const BatchOptions& options) {
   if (options.threads < 0) return false;
+  if (options.arithmetic == Arithmetic::fused && !has_fused_form(options)) return false;
   const auto there = instruction_sets();
   return !options.instructions || std::find(there.begin(), there.end(), *options.instructions) != there.end();
 }
@@ -96,7 +110,8 @@ void decide_survivors(const Source<Real>& queries, const batch::Filter<Source, R
 template <template <class> class Source, class Real, class Begin, class Found>
 BatchStatus find_collisions(const Source<Real>& queries, const BatchOptions& options, const Begin& begin,
                             const Found& found) noexcept {
-  const batch::Filter<Source, Real> filter(options.method, queries.kind, options.instructions.value_or(best()));
+  const batch::Filter<Source, Real> filter(options.method, queries.kind, options.instructions.value_or(best()),
+                                           options.arithmetic);
   // The vector stages have asked for separations of what they leave.
   const bool unseparated = filter && options.method == Method::tightrope;
   const auto collides_after_filter = [&](const Real* points) {
@@ -154,7 +169,8 @@ BatchStatus times(const Source<Real>& queries, double* times, const ImpactOption
     return BatchStatus::invalid_argument;
   }
   // What stays apart by less than the separation is no contact, but has a time.
-  const batch::Filter<Source, Real> filter(options.method, queries.kind, options.instructions.value_or(best()));
+  const batch::Filter<Source, Real> filter(options.method, queries.kind, options.instructions.value_or(best()),
+                                           options.arithmetic);
   const bool filters = filter && !separation;
   return for_chunks(queries.count, options.threads, [&](std::size_t first, std::size_t count) {
     std::fill_n(times + first, count, std::numeric_limits<double>::infinity());

@@ -20,7 +20,7 @@ using RunFilter = std::size_t (*)(const Source<Real>& queries, const VectorTests
 template <template <class> class Source, class Real>
 class Filter {
  public:
-  Filter(Method method, Kind kind, InstructionSet instructions);
+  Filter(Method method, Kind kind, InstructionSet instructions, Arithmetic arithmetic = Arithmetic::separate);
 
   /// False: this method has no vector stages with these instructions.
   explicit operator bool() const { return run_ != nullptr && tests_.first != nullptr; }

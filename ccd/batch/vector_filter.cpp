@@ -201,7 +201,8 @@ RunFilter<Source, Real> run_filter(InstructionSet instructions) {
 }
 
 template <class Real>
-VectorTests<Real> tests(Method method, Kind kind, InstructionSet instructions) {
+VectorTests<Real> tests(Method method, Kind kind, InstructionSet instructions, Arithmetic arithmetic) {
+  if (arithmetic == Arithmetic::fused && method != Method::tightrope) return {};
   switch (method) {
     case Method::bsc_float:
     case Method::bsc_safe:
@@ -212,7 +213,7 @@ VectorTests<Real> tests(Method method, Kind kind, InstructionSet instructions) {
     case Method::safe_tight:
       return safe_tests<Real>(method, kind, instructions);
     case Method::tightrope:
-      return tightrope_tests<Real>(kind, instructions);
+      return tightrope_tests<Real>(kind, instructions, arithmetic);
   }
   return {};
 }
@@ -220,8 +221,8 @@ VectorTests<Real> tests(Method method, Kind kind, InstructionSet instructions) {
 }  // namespace
 
 template <template <class> class Source, class Real>
-Filter<Source, Real>::Filter(Method method, Kind kind, InstructionSet instructions)
-    : run_(run_filter<Source, Real>(instructions)), tests_(tests<Real>(method, kind, instructions)) {}
+Filter<Source, Real>::Filter(Method method, Kind kind, InstructionSet instructions, Arithmetic arithmetic)
+    : run_(run_filter<Source, Real>(instructions)), tests_(tests<Real>(method, kind, instructions, arithmetic)) {}
 
 template class Filter<Queries, double>;
 template class Filter<Queries, float>;

@@ -146,15 +146,16 @@ HWY_INLINE Mask<Real> are_separated_on_axis(const Tile<Real>& tile) {
 }
 
 /// Does a plane along the features as they are at t = 0 (`Start`) or t = 1 separate them (MATH 3.4a)?
-template <Kind kind, bool Start, class Real>
+template <Kind kind, bool Start, class Real, template <class, class> class PlaneOfFace = plane_of_face,
+          template <class, class> class PlaneOfEdges = plane_of_edges>
 HWY_INLINE Mask<Real> are_separated_by_plane(const Tile<Real>& tile) {
   const Lanes<Real>*x = tile.x + (Start ? 0 : 12), *y = tile.x + (Start ? 12 : 0);
   if constexpr (kind == Kind::vertex_face) {
-    const auto s = plane_of_face<bound::safe, Real>::evaluate(x, x + 3, x + 6, x + 9, y, y + 3, y + 6, y + 9);
+    const auto s = PlaneOfFace<bound::safe, Real>::evaluate(x, x + 3, x + 6, x + 9, y, y + 3, y + 6, y + 9);
     const BoundedLanes<Real> sides[] = {s.near, s.far[0], s.far[1], s.far[2]};
     return have_one_sign<Real>(sides);
   } else {
-    const auto s = plane_of_edges<bound::safe, Real>::evaluate(x, x + 3, x + 6, x + 9, y, y + 3, y + 6, y + 9);
+    const auto s = PlaneOfEdges<bound::safe, Real>::evaluate(x, x + 3, x + 6, x + 9, y, y + 3, y + 6, y + 9);
     const BoundedLanes<Real> sides[] = {s.near, s.far[0], s.far[1], s.far[2], s.far[3]};
     return have_one_sign<Real>(sides);
   }

@@ -23,7 +23,7 @@ struct VectorTests {
 
 /// Of one family of methods. None: not this family's method, or no vectors for these instructions.
 template <class Real>
-VectorTests<Real> tightrope_tests(Kind kind, InstructionSet instructions);
+VectorTests<Real> tightrope_tests(Kind kind, InstructionSet instructions, Arithmetic arithmetic);
 template <class Real>
 VectorTests<Real> bsc_tests(Method method, Kind kind, InstructionSet instructions);
 template <class Real>

@@ -23,6 +23,15 @@ HWY_BEFORE_NAMESPACE();
 // After the generated headers:
 #include "ccd/batch/vector_tests-inl.h"
 
+#if HWY_NATIVE_FMA
+#undef TIGHTROPE_LANES
+#define TIGHTROPE_LANES lanes::HWY_NAMESPACE::fused  // Lanes is that of the namespace around it
+#include "fused/separating_plane.safe.double.simd.h"
+#include "fused/separating_plane.safe.float.simd.h"
+#undef TIGHTROPE_LANES
+#define TIGHTROPE_LANES lanes::HWY_NAMESPACE
+#endif
+
 namespace tightrope::TIGHTROPE_LANES {
 namespace {
 
@@ -32,6 +41,15 @@ template <Kind kind, class Real>
 unsigned first_look(const Real* numbers, std::size_t pitch) {
   return bits_of_others<Real>(are_separated_by_plane<kind, true>(Tile<Real>(numbers, pitch)));
 }
+
+#if HWY_NATIVE_FMA
+/// The predicates of the first look with products contracted into sums, and bounds of their own (codegen/fuse.h).
+template <Kind kind, class Real>
+unsigned fused_first_look(const Real* numbers, std::size_t pitch) {
+  return bits_of_others<Real>(are_separated_by_plane<kind, true, Real, fused::plane_of_face, fused::plane_of_edges>(
+      Tile<Real>(numbers, pitch)));
+}
+#endif
 
 template <Kind kind>
 unsigned later_filters(const double* numbers, std::size_t pitch) {
@@ -44,19 +62,30 @@ unsigned later_filters(const double* numbers, std::size_t pitch) {
 }
 
 template <Kind kind, class Real>
-batch::VectorTests<Real> tests() {
+batch::VectorTest<Real> first_look_in(Arithmetic arithmetic) {
+  if (arithmetic == Arithmetic::separate) return first_look<kind, Real>;
+#if HWY_NATIVE_FMA
+  return fused_first_look<kind, Real>;
+#else
+  return nullptr;
+#endif
+}
+
+template <Kind kind, class Real>
+batch::VectorTests<Real> tests(Arithmetic arithmetic) {
   if constexpr (sizeof(Real) == 8) {
-    return {first_look<kind, Real>, later_filters<kind>, nullptr};
+    return {first_look_in<kind, Real>(arithmetic), later_filters<kind>, nullptr};
   } else {
-    return {first_look<kind, Real>, nullptr, later_filters<kind>};
+    return {first_look_in<kind, Real>(arithmetic), nullptr, later_filters<kind>};
   }
 }
 
 }  // namespace
 
 template <class Real>
-batch::VectorTests<Real> tightrope_tests(Kind kind) {
-  return kind == Kind::vertex_face ? tests<Kind::vertex_face, Real>() : tests<Kind::edge_edge, Real>();
+batch::VectorTests<Real> tightrope_tests(Kind kind, Arithmetic arithmetic) {
+  return kind == Kind::vertex_face ? tests<Kind::vertex_face, Real>(arithmetic)
+                                   : tests<Kind::edge_edge, Real>(arithmetic);
 }
 
 }  // namespace tightrope::TIGHTROPE_LANES
@@ -67,12 +96,12 @@ HWY_AFTER_NAMESPACE();
 namespace tightrope::ccd {
 
 template <class Real>
-batch::VectorTests<Real> batch::tightrope_tests(Kind kind, InstructionSet instructions) {
-  switch (instructions) { TIGHTROPE_RETURN_FOR_INSTRUCTIONS(tightrope_tests<Real>(kind)) }
+batch::VectorTests<Real> batch::tightrope_tests(Kind kind, InstructionSet instructions, Arithmetic arithmetic) {
+  switch (instructions) { TIGHTROPE_RETURN_FOR_INSTRUCTIONS(tightrope_tests<Real>(kind, arithmetic)) }
   return {};
 }
-template batch::VectorTests<double> batch::tightrope_tests(Kind, InstructionSet);
-template batch::VectorTests<float> batch::tightrope_tests(Kind, InstructionSet);
+template batch::VectorTests<double> batch::tightrope_tests(Kind, InstructionSet, Arithmetic);
+template batch::VectorTests<float> batch::tightrope_tests(Kind, InstructionSet, Arithmetic);
 
 }  // namespace tightrope::ccd
 #endif

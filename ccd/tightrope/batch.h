@@ -50,17 +50,26 @@ std::optional<InstructionSet> instruction_set_by_name(std::string_view name);
 /// Those that this build has and this machine can run, best last; `scalar` is always among them.
 std::span<const InstructionSet> instruction_sets();
 
+/// How the vector stages compute.
+enum class Arithmetic : unsigned char {
+  separate,  ///< every product and sum rounded: the same bits on every machine
+  fused,     ///< the first look of method `tightrope` by fused multiply-adds: it settles a query by a proof or not at
+             ///< all, and what it leaves is decided as ever, so that answers and times are the same. Other methods
+             ///< have no such form, nor have `scalar` and `sse4`.
+};
+
 struct BatchOptions {
   Method method = Method::tightrope;
   int threads = 1;                                  ///< 0, or more than there are processors: as many as there are
   std::optional<InstructionSet> instructions = {};  ///< none: the best there is
+  Arithmetic arithmetic = Arithmetic::separate;
 };
 
 enum class BatchStatus : unsigned char {
   done,
   out_of_memory,     ///< exact arithmetic or the threads got none; what the results hold is not said
-  invalid_argument,  ///< a pitch below `count`, a null pointer, a negative number of threads, an instruction set that
-                     ///< is not there, or a method that has no such result; nothing is written
+  invalid_argument,  ///< a pitch below `count`, a null pointer, a negative number of threads, instructions or
+                     ///< arithmetic that are not there, or a method that has no such result; nothing is written
 };
 
 /// results[i] = 1 if query i collides, else 0; `results` must hold `count` bytes.

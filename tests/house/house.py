@@ -20,7 +20,7 @@ system_error thread tuple type_traits typeindex typeinfo unordered_map unordered
 version cassert cctype cerrno cfenv cfloat cinttypes climits clocale cmath csetjmp csignal cstdarg cstddef cstdint
 cstdio cstdlib cstring ctime cuchar cwchar cwctype""".split())
 POSIX = r"unistd\.h|sched\.h|signal\.h|spawn\.h|fcntl\.h|sys/\w+\.h"
-GENERATED = r"[\w-]+\.(?:float|safe|tight|exact)\.(?:double|float)(?:\.simd)?\.h"
+GENERATED = r"(?:fused/)?[\w-]+\.(?:float|safe|tight|exact)\.(?:double|float)(?:\.simd)?\.h"
 
 # Folder (the longest prefix wins): what its files may include besides the standard library, as patterns of the path in
 # the repository or, if the repository has no such file, of the name as it is written.

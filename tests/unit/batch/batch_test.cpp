@@ -111,6 +111,32 @@ void expect_same_answers(Kind kind, Method method) {
   }
 }
 
+/// Fused first tests leave other queries for the later ones; the answers are the same.
+template <class Real>
+void expect_same_answers_fused(Kind kind) {
+  const std::vector<Real> points = mixed_queries<Real>(kind, each, 12);
+  const std::vector<unsigned char> expected = one_by_one(kind, points, Method::tightrope);
+  const Queries<Real> queries{kind, expected.size(), points.data()};
+  for (const InstructionSet instructions : instruction_sets()) {
+    SCOPED_TRACE(std::string(name(instructions)));
+    const BatchOptions options{.instructions = instructions, .arithmetic = Arithmetic::fused};
+    if (instructions == InstructionSet::scalar || instructions == InstructionSet::sse4) {
+      unsigned char byte = 7;
+      EXPECT_EQ(collides(Queries<Real>{kind, 1, points.data()}, &byte, options), BatchStatus::invalid_argument);
+      EXPECT_EQ(byte, 7);
+    } else {
+      expect_answers(queries, options, expected);
+    }
+  }
+}
+
+TEST(BatchFused, AnswersAsSingleQueries) {
+  for (const Kind kind : kinds) {
+    expect_same_answers_fused<double>(kind);
+    expect_same_answers_fused<float>(kind);
+  }
+}
+
 class BatchOfMethod : public testing::TestWithParam<Method> {};
 
 TEST_P(BatchOfMethod, AnswersAsSingleQueriesInDouble) {
@@ -236,6 +262,8 @@ TEST(BatchArguments, ThatAreWrongAreRefusedAndNothingIsWritten) {
     if (std::find(there.begin(), there.end(), set) != there.end()) continue;
     EXPECT_EQ(collides(good, results, {.instructions = set}), BatchStatus::invalid_argument);
   }
+  EXPECT_EQ(collides(good, results, {.method = Method::tight, .arithmetic = Arithmetic::fused}),
+            BatchStatus::invalid_argument);
   EXPECT_TRUE(std::all_of(results, results + 3, [](unsigned char result) { return result == 7; }));
   for (const Method method : {Method::bsc_float, Method::bsc_safe, Method::tight, Method::bsc_exact}) {
     EXPECT_TRUE(refused(good, {.method = method}, {}));
