@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "limit_bench.h"
+#include "limits.h"
 #include "query_sets.h"
 
 namespace {
@@ -79,6 +80,7 @@ struct Case {
   Result result = Result::bytes;
   Method method = Method::tightrope;
   InstructionSet instructions = InstructionSet::scalar;
+  Arithmetic arithmetic = Arithmetic::separate;
   int threads = 1;
   std::size_t each = 0;  ///< queries a call, one call after another; 0: all in one
 };
@@ -150,7 +152,7 @@ class Call {
   /// The queries are those from `first` on; a multiple of 8 where bits are wanted.
   template <class Queries>
   BatchStatus operator()(const Queries& queries, std::size_t first) {
-    const BatchOptions options{what_.method, what_.threads, what_.instructions};
+    const BatchOptions options{what_.method, what_.threads, what_.instructions, what_.arithmetic};
     switch (what_.result) {
       case Result::bytes:
         return collides(queries, bytes_.data() + first, options);
@@ -242,6 +244,7 @@ std::string label(const Case& what) {
         name(what.result), name(what.method), name(what.instructions)}) {
     text.append("/").append(part);
   }
+  if (what.arithmetic == Arithmetic::fused) text.append("/fused");
   text.append("/threads:").append(std::to_string(what.threads));
   if (what.each != 0) text.append("/each:").append(std::to_string(what.each));
   return text;
@@ -274,6 +277,9 @@ void add_methods(Sets& sets, Kind kind) {
         Case what{Source::cloth_fold, kind, single};
         what.method = info.method;
         what.instructions = instructions;
+        add(sets, what);
+        if (info.method != Method::tightrope || bench::fused_limit_kernels(instructions) == nullptr) continue;
+        what.arithmetic = Arithmetic::fused;
         add(sets, what);
       }
     }

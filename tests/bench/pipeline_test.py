@@ -39,7 +39,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         written = folder / "batch_bench.json"
-        run(options.batch_bench, "--queries=2000", "--benchmark_filter=limit/arithmetic|batch/(cloth-fold|grazing)",
+        run(options.batch_bench, "--queries=2000", "--benchmark_filter=limit/(arithmetic|fused)|batch/(cloth-fold|grazing)",
             "--benchmark_min_time=0.001", f"--benchmark_out={written}", "--benchmark_out_format=json",
             stdout=subprocess.DEVNULL)
         reports = report(options, folder)
@@ -51,6 +51,7 @@ def main():
         assert {batch.results for batch in batches} == {"bytes", "bits", "times"}
         assert {batch.layout for batch in batches} == {"by-query", "by-coordinate", "mesh"}
         assert any(batch.each == 10 for batch in batches) and any(batch.real == "float" for batch in batches)
+        assert {batch.method for batch in batches if batch.is_fused()} <= {"tightrope"}
         for batch in batches:
             limit, why = limits.nearer(batch, operations)
             assert why == "arithmetic" and limit > 0, f"no limit of {vars(batch)}"
