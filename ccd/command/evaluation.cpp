@@ -56,10 +56,16 @@ class Evaluator {
     }
   }
 
-  std::optional<FileError> add(const QueryBlock& block) {
+  /// Takes what `block` holds.
+  std::optional<FileError> add(QueryBlock& block) {
     KindEvaluation& evaluation = of(block.kind);
-    evaluation.pending.points.insert(evaluation.pending.points.end(), block.points.begin(), block.points.end());
     append_truths(block, evaluation);
+    std::vector<double>& points = evaluation.pending.points;
+    if (points.empty()) {
+      points.swap(block.points);
+    } else {
+      points.insert(points.end(), block.points.begin(), block.points.end());
+    }
     return evaluation.pending.size() >= request_.queries_per_block ? run(evaluation) : std::nullopt;
   }
 

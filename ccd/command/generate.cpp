@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <memory>
+#include <utility>
 
 #include "command/choices.h"
 #include "command/command.h"
@@ -30,24 +32,31 @@ struct Generated {
   std::uint64_t collisions = 0;
 };
 
-/// Makes, decides and writes the queries of one kind.
+/// Makes, decides and writes the queries of one kind; while a block is decided, by all cores, the next one is made.
 std::optional<FileError> write_kind(const GenerateOptions& options, Scene scene, QueryWriter& writer,
                                     Generated& generated) {
   constexpr std::uint64_t queries_per_block = 16384;
   const auto generator = generate(scene, generated.kind, options.queries, options.seed);
   Progress progress(fmt::format("generating {} {}", options.scene, name(generated.kind)));
-  QueryBlock block;
-  block.kind = generated.kind;
-  for (std::uint64_t done = 0; done < options.queries; done += block.size()) {
-    const std::size_t count = std::min(queries_per_block, options.queries - done);
-    block.points.resize(count * coordinates_per_query);
-    block.truths.resize(count);
-    generator->fill(block.points);
+  QueryBlock block, next;
+  block.kind = next.kind = generated.kind;
+  const auto make_next = [&](std::uint64_t done) {
+    next.points.resize(std::min(queries_per_block, options.queries - done) * coordinates_per_query);
+    generator->fill(next.points);
+  };
+  make_next(0);
+  for (std::uint64_t done = 0; done < options.queries;) {
+    std::swap(block, next);
+    done += block.size();
+    std::future<void> making;
+    if (done < options.queries) making = std::async(std::launch::async, make_next, done);
+    block.truths.resize(block.size());
     exact_truths(block.kind, block.points, block.truths);
     for (const unsigned char truth : block.truths) generated.collisions += truth;
     if (auto wrong = writer.append(block)) return wrong;
     if (interrupted()) return FileError{"interrupted; nothing was written"};
-    progress.show(done + count, options.queries);
+    progress.show(done, options.queries);
+    if (making.valid()) making.get();
   }
   return std::nullopt;
 }

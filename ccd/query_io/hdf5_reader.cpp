@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "query_io/hdf5_dataset.h"
+#include "query_io/hdf5_guard.h"
 #include "query_io/query_reader.h"
 
 namespace tightrope::ccd {
@@ -64,6 +65,7 @@ std::string shape(const std::vector<hsize_t>& sizes) {
 
 std::optional<FileError> Hdf5Reader::open(std::optional<Kind> only) {
   const hdf5::Quiet quiet;
+  const hdf5::CrashGuard guard(path_);
   file_ = Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file_) return wrong("", "not a readable HDF5 file (truncated, damaged or of another format)");
   bool any_group = false;
@@ -181,6 +183,7 @@ hsize_t Hdf5Reader::rows_at_hand(std::size_t limit) {
 
 std::optional<FileError> Hdf5Reader::next(std::size_t limit, QueryBlock& block) {
   const hdf5::Quiet quiet;
+  const hdf5::CrashGuard guard(path_);
   block.clear();
   const hsize_t count = rows_at_hand(limit);
   if (count == 0) return std::nullopt;

@@ -18,10 +18,9 @@ namespace {
 using nlohmann::json;
 
 std::vector<std::vector<std::string>> executions() {
-  std::vector<std::vector<std::string>> all = {{"--threads", "0"}, {"--threads", "3"}};
+  std::vector<std::vector<std::string>> all = {{"--threads", "0"}, {"--threads", "3", "--instructions", "scalar"}};
   for (const InstructionSet set : instruction_sets()) {
     all.push_back({"--instructions", std::string(name(set))});
-    all.push_back({"--threads", "2", "--instructions", std::string(name(set))});
   }
   return all;
 }

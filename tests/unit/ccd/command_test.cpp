@@ -194,6 +194,23 @@ TEST(Command, GenerateWritesTheScenesQueriesWithExactTruth) {
   EXPECT_EQ(scratch.names(), expected);
 }
 
+/// Blocks are made while the ones before are decided: still one stream.
+TEST(Command, GenerateInManyBlocksIsTheSceneToo) {
+  const ScratchDirectory scratch;
+  const std::string file = (scratch.path() / "q.h5").string();
+  constexpr std::size_t count = 40000;
+  const Outcome outcome =
+      run_command(scratch, {"generate", "random", "--queries", "40000", "--kind", "vertex-face", "-o", file});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const QueryBlock written = read_all(file, Kind::vertex_face);
+  std::vector<double> points(count * coordinates_per_query);
+  generate(Scene::random, Kind::vertex_face, count, 1)->fill(points);
+  EXPECT_TRUE(written.points == points);
+  std::vector<unsigned char> truths(count);
+  exact_truths(Kind::vertex_face, points, truths);
+  EXPECT_TRUE(written.truths == truths);
+}
+
 TEST(Command, GenerateOfOneKindWritesNoOther) {
   const ScratchDirectory scratch;
   const std::string output = (scratch.path() / "q").string();

@@ -108,6 +108,25 @@ TEST_F(DamagedFiles, OtherFilesMayHideDamageButNeverCrashTheReader) {
   }
 }
 
+/// A chunk of size zero, by which HDF5 1.10 divides.
+TEST_F(DamagedFiles, ACrashOfTheHdf5LibraryIsAnErrorOfTheFile) {
+  const std::filesystem::path other = scratch.path() / "other.h5";
+  Hdf5File(other).chunks({5, 8, 3}).queries("edge-edge/queries", block_of(Kind::edge_edge, 5).points).close();
+  std::string bytes = text_of(other);
+  constexpr std::string_view sizes("\5\0\0\0\10\0\0\0\3\0\0\0\10\0\0\0", 16);  // 5 x 8 x 3 x 8 bytes
+  const std::size_t at = bytes.find(sizes);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] = '\0';
+  const std::string damaged = scratch.write("damaged.h5", bytes);
+  for (const std::string command : {"evaluate", "toi"}) {
+    const Outcome outcome = run_command(scratch, {command, damaged});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err.find("tightrope-ccd: error: " + damaged + ":"), 0U) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+  }
+}
+
 TEST_F(DamagedFiles, CutOffAnywhereIsAnError) {
   const std::string whole = text_of(path);
   std::set<std::size_t> lengths = {0, 1, whole.size() - 1};
