@@ -55,7 +55,7 @@ class PredicatePrinter {
         options_(options),
         lanes_(options.form == Form::lanes),
         scalar_(codegen::name(options.precision)),
-        real_(lanes_ ? "real" : scalar_),
+        real_(lanes_ ? fmt::format("Lanes<{}>", scalar_) : scalar_),
         schedule_(codegen::schedule(bounded_)),
         arguments_(codegen::arguments(predicate_)),
         slots_(slot_expressions(predicate_)),
@@ -323,7 +323,7 @@ std::string PredicatePrinter::print() {
   line("");
   line("template <>");
   line(fmt::format("struct {}<{}, {}> {{", predicate_.name, tag(options_.mode), scalar_));
-  line(fmt::format("  using real = {};", lanes_ ? fmt::format("Lanes<{}>", scalar_) : scalar_));
+  line(fmt::format("  using real = {};", real_));
   print_results();
   if (several_stages_) print_state();
   if (has_range_ && !lanes_) print_in_range();

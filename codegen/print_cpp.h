@@ -36,9 +36,9 @@ struct HeaderOptions {
 /// Every product is spelled `product(a, b)`, not only one that is seen to feed a sum: values leave through results and
 /// State, the function is inlined, and the caller's sum must not be fused with it either.
 ///
-/// For lanes the same text, but for the type of the numbers, `real`, and without the functions that test the declared
-/// ranges: a lane has no branch of its own. It stands in a namespace of the includer's choice and may be included once
-/// for each of them.
+/// For lanes the same text, but for the type of the numbers, Lanes<double>, and without the functions that test the
+/// declared ranges: a lane has no branch of its own. It stands in a namespace of the includer's choice and may be
+/// included once for each of them.
 std::string print_header(std::span<const GeneratedPredicate> predicates, const HeaderOptions& options);
 
 /// One predicate of a header: the declaration of its template and its specialisation for the mode.

@@ -33,11 +33,34 @@ constexpr std::array<std::string_view, 92> cpp_keywords = {
 constexpr std::array<std::string_view, 12> macros = {"EOF",   "HUGE_VAL", "INFINITY", "NAN",   "NULL",   "assert",
                                                      "errno", "linux",    "stderr",   "stdin", "stdout", "unix"};
 
-constexpr std::array<std::string_view, 24> generated_names = {
-    "Bound",           "Bounded", "Real",       "Sign",     "State",     "bound",          "certain_nonnegative",
-    "certain_nonzero", "choose",  "generated",  "in_range", "magnitude", "make_uncertain", "max_magnitude",
-    "maximum",         "minimum", "normalizer", "product",  "real",      "result",         "sign",
-    "state",           "std",     "tightrope"};
+constexpr std::array<std::string_view, 28> generated_names = {"Bound",
+                                                              "Bounded",
+                                                              "Lanes",
+                                                              "Real",
+                                                              "Sign",
+                                                              "State",
+                                                              "bound",
+                                                              "certain_nonnegative",
+                                                              "certain_nonzero",
+                                                              "choose",
+                                                              "generated",
+                                                              "in_range",
+                                                              "lanes",
+                                                              "magnitude",
+                                                              "make_uncertain",
+                                                              "max_magnitude",
+                                                              "maximum",
+                                                              "minimum",
+                                                              "multiply_add",
+                                                              "normalizer",
+                                                              "product",
+                                                              "real",
+                                                              "result",
+                                                              "sign",
+                                                              "square_root",
+                                                              "state",
+                                                              "std",
+                                                              "tightrope"};
 
 static_assert(std::is_sorted(cpp_keywords.begin(), cpp_keywords.end()));
 static_assert(std::is_sorted(macros.begin(), macros.end()));

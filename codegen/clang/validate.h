@@ -31,7 +31,7 @@ struct AnalysedPredicate {
 /// The proof shares nothing with the printer but the two published contracts: docs/generated-code.md (names of
 /// functions, order of arguments and elements) and the graph. Names of locals and the order of statements are free.
 ///
-/// A header for lanes is read with one lane, where `real` is the scalar type (runtime/tightrope/lanes.h): the same
+/// A header for lanes is read with one lane, where Lanes<double> is double (runtime/tightrope/lanes.h): the same
 /// operations in the same order; what a vector class makes of each of them is its own affair.
 std::string validate(const std::string& text, const std::string& file_name,
                      std::span<const AnalysedPredicate> predicates, BoundMode mode, Precision precision,

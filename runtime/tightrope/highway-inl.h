@@ -79,9 +79,18 @@ struct Lanes {
   friend HWY_INLINE Lanes choose(Lanes condition, Lanes first, Lanes second) {
     return hn::IfThenElse(hn::Ge(condition.v, hn::Zero(Tag())), first.v, second.v);
   }
+  friend HWY_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
 #if HWY_NATIVE_FMA
-  friend HWY_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) { return hn::MulAdd(a.v, b.v, c.v); }
+    return hn::MulAdd(a.v, b.v, c.v);
+#else  // the same numbers, slowly
+    HWY_ALIGN Real x[hn::MaxLanes(Tag())], y[hn::MaxLanes(Tag())], z[hn::MaxLanes(Tag())];
+    hn::Store(a.v, Tag(), x);
+    hn::Store(b.v, Tag(), y);
+    hn::Store(c.v, Tag(), z);
+    for (std::size_t i = 0; i < hn::MaxLanes(Tag()); ++i) z[i] = tightrope::multiply_add(x[i], y[i], z[i]);
+    return hn::Load(Tag(), z);
 #endif
+  }
   friend HWY_INLINE Lanes normalizer(Lanes largest) {
     HWY_ALIGN Real x[hn::MaxLanes(Tag())];
     hn::Store(largest.v, Tag(), x);

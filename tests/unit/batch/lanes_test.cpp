@@ -101,9 +101,7 @@ void compare_all() {
   compare<Real>("choose", [](auto a, auto b, auto c) HWY_ATTR { return choose(a, b, c); });
   compare<Real>("square_root", [](auto a, auto, auto) HWY_ATTR { return square_root(magnitude(a)); });
   compare<Real>("normalizer", [](auto a, auto, auto) HWY_ATTR { return normalizer(magnitude(a)); });
-#if HWY_NATIVE_FMA
   compare<Real>("multiply_add", [](auto a, auto b, auto c) HWY_ATTR { return multiply_add(a, b, c); });
-#endif
 }
 
 }  // namespace
