@@ -118,10 +118,47 @@ HWY_INLINE unsigned run_full(const Queries<Real>& queries, std::size_t i, batch:
   transpose(queries.points + numbers_per_query * i, tile);
   return test(tile.numbers, number_of_lanes<Real>);
 }
+
+/// The 128-bit blocks at places[0] + offset, places[2] + offset, ..: as many as the vector has.
+template <class D>
+HWY_INLINE hn::Vec<D> blocks_at(D d, const double* const* places, std::size_t offset) {
+  constexpr std::size_t count = hn::MaxLanes(D()) / 2;
+  if constexpr (count == 1) {
+    return hn::LoadU(d, places[0] + offset);
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(d, blocks_at(half, places + count, offset), blocks_at(half, places, offset));
+  }
+}
+
+/// Queries whose vertices lie anywhere.
+template <class Real>
+HWY_INLINE void gather(const MeshQueries<Real>& queries, std::size_t i, Tile<Real>& tile) {
+  for (std::size_t lane = 0; lane < number_of_lanes<Real>; ++lane) place(queries, i + lane, tile, lane);
+}
+template <>
+HWY_INLINE void gather(const MeshQueries<double>& queries, std::size_t i, Tile<double>& tile) {
+  const hn::ScalableTag<double> d;
+  constexpr std::size_t n = number_of_lanes<double>;
+  double* to = tile.numbers;
+  for (const double* vertices : {queries.vertices_t0, queries.vertices_t1}) {
+    for (std::size_t point = 0; point < 4; ++point, to += 3 * n) {
+      const double* places[n];
+      for (std::size_t lane = 0; lane < n; ++lane) {
+        places[lane] = vertices + std::size_t{3} * queries.indices[4 * (i + lane) + point];
+      }
+      const auto even_xy = blocks_at(d, places, 0), odd_xy = blocks_at(d, places + 1, 0);
+      const auto even_yz = blocks_at(d, places, 1), odd_yz = blocks_at(d, places + 1, 1);
+      hn::Store(hn::InterleaveLower(d, even_xy, odd_xy), d, to);
+      hn::Store(hn::InterleaveUpper(d, even_xy, odd_xy), d, to + n);
+      hn::Store(hn::InterleaveUpper(d, even_yz, odd_yz), d, to + 2 * n);
+    }
+  }
+}
 template <class Real>
 HWY_INLINE unsigned run_full(const MeshQueries<Real>& queries, std::size_t i, batch::VectorTest<Real> test) {
   Tile<Real> tile;
-  for (std::size_t lane = 0; lane < number_of_lanes<Real>; ++lane) place(queries, i + lane, tile, lane);
+  gather(queries, i, tile);
   return test(tile.numbers, number_of_lanes<Real>);
 }
 
