@@ -1,9 +1,13 @@
-# tightrope_add_predicates(TARGET FILES a.pred .. [BOUNDS float|safe|tight|static|interval|exact|staged ..] [REALS double|float ..] [SIMD] [TESTS])
+# tightrope_add_predicates(TARGET FILES a.pred .. [BOUNDS float|safe|tight|static|interval|exact|staged ..] [REALS double|float ..] [SIMD] [CUDA]
+#                          [TESTS])
 #
 # Compiles predicates at build time and lets TARGET include the results, "a.tight.double.h" and so on (BOUNDS default to
 # tight, REALS to double). An INTERFACE library as TARGET passes them on to whoever links it in the same build.
 #
 # SIMD makes the headers for vector classes too, "a.tight.double.simd.h" (not of exact and staged).
+#
+# CUDA makes batches of calls on a GPU too, "a.tight.double.cuda.h" (not of exact and staged), and adds their kernels,
+# "a.tight.double.cu", to TARGET's sources. Needs enable_language(CUDA) and a TARGET that is compiled.
 #
 # TESTS builds the generated tests too, one executable TARGET_<stem>_generated_tests a file, registered with CTest as
 # generated.TARGET.<stem> (label `generated`; needs GoogleTest, and enable_testing() in the top-level CMakeLists.txt).
@@ -11,7 +15,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.20)  # functions keep the policies of their definition: depfiles work in projects of any age
 
 function(tightrope_add_predicates target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "SIMD;TESTS" "" "FILES;BOUNDS;REALS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SIMD;CUDA;TESTS" "" "FILES;BOUNDS;REALS")
   if(NOT TARGET ${target})
     message(FATAL_ERROR "tightrope_add_predicates: ${target} is not a target")
   endif()
@@ -39,9 +43,16 @@ function(tightrope_add_predicates target)
     endif()
   endforeach()
   get_target_property(type ${target} TYPE)
+  if(arg_CUDA AND type STREQUAL INTERFACE_LIBRARY)
+    message(FATAL_ERROR "tightrope_add_predicates: CUDA needs a target that is compiled, ${target} is an INTERFACE library")
+  endif()
+  if(arg_CUDA AND NOT CMAKE_CUDA_COMPILER)
+    message(FATAL_ERROR "tightrope_add_predicates: CUDA needs the language: enable_language(CUDA)")
+  endif()
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/${target}_predicates)
   foreach(file IN LISTS arg_FILES)
-    _tightrope_compile_predicate(${target} ${type} ${directory} ${file} "${arg_BOUNDS}" "${arg_REALS}" "${arg_SIMD}" "${arg_TESTS}")
+    _tightrope_compile_predicate(${target} ${type} ${directory} ${file} "${arg_BOUNDS}" "${arg_REALS}" "${arg_SIMD}"
+      "${arg_CUDA}" "${arg_TESTS}")
   endforeach()
   if(type STREQUAL INTERFACE_LIBRARY)
     target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${directory}>)
@@ -50,27 +61,32 @@ function(tightrope_add_predicates target)
     target_include_directories(${target} PRIVATE ${directory})
     target_link_libraries(${target} PRIVATE tightrope::runtime)
   endif()
+  if(arg_CUDA)  # for the C++ sources that include the batches
+    target_include_directories(${target} SYSTEM PRIVATE ${CMAKE_CUDA_TOOLKIT_INCLUDE_DIRECTORIES})
+  endif()
 endfunction()
 
 # One file of the above: a command that compiles it, a target that runs the command before `target` is built, and tests.
-function(_tightrope_compile_predicate target type directory file bounds reals simd tests)
+function(_tightrope_compile_predicate target type directory file bounds reals simd cuda tests)
   get_filename_component(path ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
   get_filename_component(stem ${file} NAME_WLE)
   string(MAKE_C_IDENTIFIER ${stem} id)
   set(headers)
+  set(kernels)
   foreach(bound IN LISTS bounds)
     foreach(real IN LISTS reals)
       list(APPEND headers ${directory}/${stem}.${bound}.${real}.h)
       if(simd AND NOT bound MATCHES "^(exact|staged)$")
         list(APPEND headers ${directory}/${stem}.${bound}.${real}.simd.h)
       endif()
+      if(cuda AND NOT bound MATCHES "^(exact|staged)$")
+        list(APPEND headers ${directory}/${stem}.${bound}.${real}.cuda.h)
+        list(APPEND kernels ${directory}/${stem}.${bound}.${real}.cu)
+      endif()
     endforeach()
   endforeach()
-  set(outputs ${headers})
-  set(options)
-  if(simd)
-    set(options --target cpp,simd)
-  endif()
+  set(outputs ${headers} ${kernels})
+  set(options --target cpp$<$<BOOL:${simd}>:,simd>$<$<BOOL:${cuda}>:,cuda>)
   if(tests)
     list(APPEND outputs ${directory}/${stem}.test.cpp)
     list(APPEND options --tests)
@@ -92,6 +108,9 @@ function(_tightrope_compile_predicate target type directory file bounds reals si
     VERBATIM)
   add_custom_target(${target}_${id}_predicates DEPENDS ${outputs})
   add_dependencies(${target} ${target}_${id}_predicates)
+  if(kernels)
+    target_sources(${target} PRIVATE ${kernels})
+  endif()
   if(NOT tests)
     return()
   endif()

@@ -48,8 +48,8 @@ class BatchPrinter {
   std::string kernel() const {
     return fmt::format(
         "\n__global__ void __launch_bounds__(threads_per_block) {}(const __grid_constant__ Batch<generated::{}> batch, "
-        "const std::size_t count) {{\n  for (std::size_t i = first_call(); i < count; i += calls_at_once()) "
-        "batch.evaluate(i);\n}}\n",
+        "const std::size_t count) {{\n  const std::size_t call = call_of_thread();\n  if (call < count) "
+        "batch.evaluate(call);\n}}\n",
         kernel_, instance_);
   }
 

@@ -90,21 +90,21 @@ TIGHTROPE_FUNCTION void store(const Element (&elements)[N], const OutputArray<Re
 #if defined(__CUDACC__)
 inline constexpr unsigned threads_per_block = 128;  // up to 255 registers of 64K a thread, on every architecture
 
-/// A kernel's thread takes the calls from its first_call() in steps of calls_at_once().
-__device__ inline std::size_t first_call() {
+__device__ inline std::size_t call_of_thread() {
   return blockIdx.x * static_cast<std::size_t>(threads_per_block) + threadIdx.x;
 }
-__device__ inline std::size_t calls_at_once() { return gridDim.x * static_cast<std::size_t>(threads_per_block); }
 
-/// One thread a call, as far as a grid is large enough; the error, if any, is that of the launch.
+/// One thread a call. (No loop over more calls than a grid has threads: their arrays would not fit into any memory. And
+/// nvcc would make a copy of the loop for every combination of wanted outputs.) The error, if any, is that of the
+/// launch.
 template <class Calls>
 cudaError_t launch_calls(void (*kernel)(Calls, std::size_t), Calls calls, std::size_t count, cudaStream_t stream) {
   if (count == 0) return cudaSuccess;
-  constexpr std::size_t most_blocks = 0x7fffffff;
   const std::size_t blocks = (count - 1) / threads_per_block + 1;
-  const dim3 grid(static_cast<unsigned>(blocks < most_blocks ? blocks : most_blocks));
+  if (blocks > 0x7fffffff) return cudaErrorInvalidValue;
   void* arguments[] = {&calls, &count};
-  return cudaLaunchKernel(reinterpret_cast<const void*>(kernel), grid, dim3(threads_per_block), arguments, 0, stream);
+  return cudaLaunchKernel(reinterpret_cast<const void*>(kernel), dim3(static_cast<unsigned>(blocks)),
+                          dim3(threads_per_block), arguments, 0, stream);
 }
 #endif
 

@@ -10,7 +10,8 @@ namespace {
 __global__ void __launch_bounds__(threads_per_block)
     door_tight_double(const __grid_constant__ Batch<generated::door<bound::tight, double>> batch,
                       const std::size_t count) {
-  for (std::size_t i = first_call(); i < count; i += calls_at_once()) batch.evaluate(i);
+  const std::size_t call = call_of_thread();
+  if (call < count) batch.evaluate(call);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+# TIGHTROPE_CUDA: AUTO (GPU code where a working nvcc is found), ON (it must be there) or OFF. Sets TIGHTROPE_HAS_CUDA,
+# and enables the language CUDA if so.
+#
+# CMAKE_CUDA_ARCHITECTURES is as CMake has it. Its default here: the GPU of this machine, if there is one, and the oldest
+# virtual architecture that nvcc knows, which the driver compiles for every other one.
+set(TIGHTROPE_CUDA AUTO CACHE STRING "Code for GPUs: AUTO (where nvcc is found), ON or OFF")
+set_property(CACHE TIGHTROPE_CUDA PROPERTY STRINGS AUTO ON OFF)
+set(TIGHTROPE_HAS_CUDA OFF)
+if(NOT TIGHTROPE_CUDA STREQUAL "AUTO" AND NOT TIGHTROPE_CUDA)
+  return()
+endif()
+
+if(NOT DEFINED CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX})  # where NVIDIA's installers put it, often not in PATH
+  find_program(TIGHTROPE_NVCC nvcc PATHS /usr/local/cuda/bin /opt/cuda/bin)
+  mark_as_advanced(TIGHTROPE_NVCC)
+  if(TIGHTROPE_NVCC)
+    set(ENV{CUDACXX} ${TIGHTROPE_NVCC})
+  endif()
+endif()
+if(TIGHTROPE_CUDA STREQUAL "AUTO")
+  include(CheckLanguage)
+  check_language(CUDA)
+  if(NOT CMAKE_CUDA_COMPILER)
+    message(STATUS "No CUDA compiler that works: no code for GPUs")
+    return()
+  endif()
+endif()
+set(architectures_are_given OFF)
+if(DEFINED CMAKE_CUDA_ARCHITECTURES OR DEFINED ENV{CUDAARCHS})
+  set(architectures_are_given ON)
+endif()
+enable_language(CUDA)
+set(TIGHTROPE_HAS_CUDA ON)
+if(NOT architectures_are_given)
+  execute_process(COMMAND ${CMAKE_CUDA_COMPILER} --list-gpu-arch OUTPUT_VARIABLE known ERROR_QUIET)
+  if(known MATCHES "compute_([0-9]+)")
+    set(CMAKE_CUDA_ARCHITECTURES ${CMAKE_CUDA_ARCHITECTURES_NATIVE} ${CMAKE_MATCH_1}-virtual
+      CACHE STRING "The GPUs to make code for" FORCE)
+  endif()
+endif()
+message(STATUS "Code for GPUs: ${CMAKE_CUDA_ARCHITECTURES}")
+if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION AND CMAKE_CUDA_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+  set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)  # CMake 3.25 does not know
+  set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION -std=c++20)
+endif()
+set(CMAKE_CUDA_STANDARD 20)
+set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+set(CMAKE_CUDA_EXTENSIONS OFF)
+if(NOT DEFINED CMAKE_CUDA_COMPILER_LAUNCHER AND CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CUDA_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
+endif()
