@@ -81,6 +81,20 @@ TEST(Command, CompileWritesOneHeaderForEveryBoundAndScalarType) {
   EXPECT_TRUE(fs::exists(folder.path() / "all" / "ranged.static.double.h"));
 }
 
+TEST(Command, TargetSimdWritesHeadersForVectorClasses) {
+  const ScratchFolder folder;
+  folder.write("orient2d.pred", orient2d);
+  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --target simd --bound all -o simd").status, 0);
+  EXPECT_EQ(files_in(folder.path() / "simd"),
+            (std::vector<std::string>{"orient2d.float.double.simd.h", "orient2d.interval.double.simd.h",
+                                      "orient2d.safe.double.simd.h", "orient2d.tight.double.simd.h"}));
+  EXPECT_EQ(tightrope(folder, "compile orient2d.pred --target cpp,simd --real float --bound exact,safe -o both").status,
+            0);
+  EXPECT_EQ(
+      files_in(folder.path() / "both"),
+      (std::vector<std::string>{"orient2d.exact.float.h", "orient2d.safe.float.h", "orient2d.safe.float.simd.h"}));
+}
+
 TEST(Command, TargetCudaWritesBatchesBesideTheHeaders) {
   const ScratchFolder folder;
   folder.write("orient2d.pred", orient2d);

@@ -19,8 +19,9 @@ namespace {
 /// A file's predicates with the bounds of one mode, as they were analysed, and the header that was printed of them.
 class Generated {
  public:
-  Generated(const std::string& source, BoundMode mode, Precision precision = Precision::binary64)
-      : program_(testing_support::program(source)), mode_(mode), precision_(precision) {
+  Generated(const std::string& source, BoundMode mode, Precision precision = Precision::binary64,
+            Form form = Form::scalar)
+      : program_(testing_support::program(source)), mode_(mode), precision_(precision), form_(form) {
     dsl::Diagnostics diagnostics;
     for (const dsl::Predicate& p : program_.predicates) {
       bounded_.push_back(add_bounds(p, mode, precision, diagnostics));
@@ -28,7 +29,7 @@ class Generated {
     EXPECT_FALSE(diagnostics.has_errors());
     std::vector<GeneratedPredicate> generated;
     for (std::size_t i = 0; i < bounded_.size(); ++i) generated.push_back({&program_.predicates[i], &bounded_[i]});
-    text_ = formatted(print_header(generated, {"test.pred", 0x1234, mode, precision}), "test.h");
+    text_ = formatted(print_header(generated, {"test.pred", 0x1234, mode, precision, false, {}, form}), "test.h");
   }
 
   const std::string& text() const { return text_; }
@@ -37,13 +38,14 @@ class Generated {
   std::string verdict(const std::string& text) const {
     std::vector<AnalysedPredicate> analysed;
     for (std::size_t i = 0; i < bounded_.size(); ++i) analysed.push_back({&program_.predicates[i], &bounded_[i]});
-    return validate(text, "test.h", analysed, mode_, precision_);
+    return validate(text, "test.h", analysed, mode_, precision_, form_);
   }
 
  private:
   dsl::Program program_;
   BoundMode mode_;
   Precision precision_;
+  Form form_;
   std::vector<BoundedPredicate> bounded_;
   std::string text_;
 };
@@ -279,6 +281,31 @@ TEST(Validate, PassesEveryPredicateOfTheRepository) {
     }
   }
   EXPECT_GE(headers, 40);
+}
+
+TEST(Validate, CatchesChangesInCodeForLanes) {
+  for (const Precision precision : {Precision::binary64, Precision::binary32}) {
+    for (const BoundMode mode : {BoundMode::none, BoundMode::safe, BoundMode::tight, BoundMode::interval}) {
+      const Generated generated(two_stages, mode, precision, Form::lanes);
+      EXPECT_EQ(generated.verdict(generated.text()), "");
+    }
+  }
+  const Generated generated(two_stages, BoundMode::tight, Precision::binary64, Form::lanes);
+  const Change table[] = {
+      {"operands swapped", R"(= p_t0\[0\] - a\[0\];)", "= a[0] - p_t0[0];", "no operation of the an"},
+      {"a contraction barrier removed", R"(product\((\w+), (\w+)\))", "$1 * $2", "a bare product"},
+      {"a literal changed", "0x1.8p\\+1", "0x1.8000000000001p+1", "no operation of the analysed graph"},
+      {"lanes of another type", R"(const Lanes<double> v3)", "const Lanes<float> v3", "is of type"},
+      {"an output left out", R"(result\.Y\[1\] = [^;]*;)", "", "element 1 of output Y is never set"},
+      {"a function that lanes do not have", R"(using real = Lanes<double>;)",
+       "using real = Lanes<double>; static bool in_range() { return true; }", "predicates do not have"},
+      {"another namespace", R"(namespace tightrope::TIGHTROPE_LANES \{)", "namespace tightrope::others {",
+       "not accepted|outside namespace"},
+  };
+  for (const Change& change : table) {
+    const std::string verdict = generated.verdict(changed(generated.text(), change.pattern, change.replacement));
+    EXPECT_TRUE(std::regex_search(verdict, std::regex(change.message))) << change.what << ": " << verdict;
+  }
 }
 
 }  // namespace
