@@ -54,6 +54,9 @@ foreach(example IN ITEMS first_predicate ccd_query batch)
 endforeach()
 build_and_test(${SCRATCH}/projects/first_predicate ${SCRATCH}/build/first_predicate 2)
 build_and_test(${SCRATCH}/projects/ccd_query ${SCRATCH}/build/ccd_query 1)
+if(CUDA)
+  build_and_test(${SCRATCH}/projects/cuda_batch ${SCRATCH}/build/cuda_batch 1 -DCMAKE_CUDA_COMPILER=${CUDA})
+endif()
 build_and_test(${SCRATCH}/projects/batch ${SCRATCH}/build/batch 1)
 
 run(${prefix}/bin/tightrope compile ${SCRATCH}/projects/first_predicate/side_of_door.pred --bound all --real double --tests
