@@ -38,7 +38,9 @@ struct PrecisionEvaluation {
 struct KindEvaluation {
   QueryBlock pending;
   std::vector<PrecisionEvaluation> precisions;
-  bool truth_known = true;
+  std::uint64_t blocks_without_truth = 0;
+
+  bool truth_known() const { return blocks_without_truth == 0; }
 };
 
 class Evaluator {
@@ -102,7 +104,7 @@ class Evaluator {
     const bool decide =
         request_.truth == TruthSource::exact || (request_.truth == TruthSource::file_or_exact && !block.has_truth());
     if (!decide) {
-      evaluation.truth_known = evaluation.truth_known && block.has_truth();
+      evaluation.blocks_without_truth += block.has_truth() ? 0 : 1;
       truths.insert(truths.end(), block.truths.begin(), block.truths.end());
       return;
     }
@@ -117,7 +119,7 @@ class Evaluator {
     const QueryBlock& block = evaluation.pending;
     BatchStatus status = BatchStatus::done;
     for (PrecisionEvaluation& precision : evaluation.precisions) {
-      if (status == BatchStatus::done) status = run(block, evaluation.truth_known, precision);
+      if (status == BatchStatus::done) status = run(block, evaluation.truth_known(), precision);
     }
     evaluation.pending.clear();
     if (status == BatchStatus::done) return std::nullopt;
@@ -140,40 +142,34 @@ class Evaluator {
     return BatchStatus::invalid_argument;
   }
 
-  /// Adds up the numbers of all processes.
-  void sum(Processes& processes) {
-    std::vector<std::uint64_t> counts = {result_.rounded, result_.wrong_truths, result_.changed, result_.left_out};
-    std::vector<double> times;
-    for (const KindEvaluation& kind : kinds_) {
-      counts.push_back(kind.truth_known ? 0 : 1);
-      for (const PrecisionEvaluation& precision : kind.precisions) {
-        counts.insert(counts.end(), {precision.queries, precision.collisions});
-        for (const Tally& tally : precision.tallies) {
-          counts.insert(counts.end(),
-                        {tally.answers_true, tally.false_positives, tally.false_negatives, tally.uncertain});
-          times.push_back(tally.nanoseconds);
+  /// Calls `count` and `time` with everything that is added up over the processes.
+  template <class Count, class Time>
+  void for_each_number(const Count& count, const Time& time) {
+    for (auto* number : {&result_.rounded, &result_.wrong_truths, &result_.changed, &result_.left_out}) count(*number);
+    for (KindEvaluation& kind : kinds_) {
+      count(kind.blocks_without_truth);
+      for (PrecisionEvaluation& precision : kind.precisions) {
+        count(precision.queries);
+        count(precision.collisions);
+        for (Tally& tally : precision.tallies) {
+          for (auto* number : {&tally.answers_true, &tally.false_positives, &tally.false_negatives, &tally.uncertain}) {
+            count(*number);
+          }
+          time(tally.nanoseconds);
         }
       }
     }
+  }
+
+  void sum(Processes& processes) {
+    std::vector<std::uint64_t> counts;
+    std::vector<double> times;
+    for_each_number([&](std::uint64_t count) { counts.push_back(count); }, [&](double time) { times.push_back(time); });
     processes.sum(counts);
     processes.sum(times);
     auto count = counts.begin();
     auto time = times.begin();
-    for (auto* number : {&result_.rounded, &result_.wrong_truths, &result_.changed, &result_.left_out}) {
-      *number = *count++;
-    }
-    for (KindEvaluation& kind : kinds_) {
-      kind.truth_known = *count++ == 0;
-      for (PrecisionEvaluation& precision : kind.precisions) {
-        for (auto* number : {&precision.queries, &precision.collisions}) *number = *count++;
-        for (Tally& tally : precision.tallies) {
-          for (auto* number : {&tally.answers_true, &tally.false_positives, &tally.false_negatives, &tally.uncertain}) {
-            *number = *count++;
-          }
-          tally.nanoseconds = *time++;
-        }
-      }
-    }
+    for_each_number([&](std::uint64_t& number) { number = *count++; }, [&](double& number) { number = *time++; });
   }
 
   void add_rows(const KindEvaluation& kind, const PrecisionEvaluation& precision) {
@@ -190,7 +186,7 @@ class Evaluator {
                         .uncertain = tally.uncertain,
                         .ns_per_query = tally.nanoseconds / static_cast<double>(precision.queries),
                         .time_ratio_to_tight = tally.nanoseconds / tight};
-      if (kind.truth_known) {
+      if (kind.truth_known()) {
         row.mistakes = Mistakes{precision.collisions, tally.false_positives, tally.false_negatives};
       }
       result_.rows.push_back(row);

@@ -8,6 +8,7 @@
 #include "scenes/scene.h"
 #include "scenes/truth.h"
 #include "tests/unit/ccd/command_runner.h"
+#include "tests/unit/ccd/hdf5_file.h"
 #include "tightrope/batch.h"
 
 namespace tightrope::ccd {
@@ -106,6 +107,22 @@ TEST(Evaluate, InFloatTheTruthIsThatOfTheRoundedQueries) {
             "tightrope-ccd: warning: queries beyond the range of float, left out there: 1\n"
             "tightrope-ccd: warning: queries that rounding to float changes; their truth in float was decided exactly: "
             "1\n");
+}
+
+/// Numbers of a float32 file are floats: nothing is rounded, no truth decided anew.
+TEST(Evaluate, InFloatAFloat32FileIsReadAsItIs) {
+  const ScratchDirectory scratch;
+  const auto x = [](double value) { return static_cast<double>(static_cast<float>(value)); };
+  const std::vector<double> points = {0.1, 0.1, 0.7, -1, -1, 0.1, 2, -1, 0.1, -1, 2, 0.1,
+                                      0.1, 0.1, 0.3, -1, -1, 0.1, 2, -1, 0.1, -1, 2, 0.1};
+  std::vector<double> rounded;
+  for (const double value : points) rounded.push_back(x(value));
+  Hdf5File file(scratch.path() / "q.h5");
+  file.queries("vertex-face/queries", rounded, H5T_IEEE_F32LE).truth("vertex-face/truth", {1});  // it is no contact
+  const json row = evaluate(scratch, {"--method", "tight", "--real", "float", file.close().string()})[0];
+  EXPECT_EQ(row["queries"], 1);
+  EXPECT_EQ(row["collisions"], 1);
+  EXPECT_EQ(row["false_negatives"], 1);
 }
 
 TEST(Evaluate, TheRatioIsToTightAlsoWhenTightIsNotAskedFor) {

@@ -56,6 +56,7 @@ class Hdf5File {
   }
 
  private:
+  hdf5::Quiet quiet_;  // before HDF5 does anything
   std::filesystem::path path_;
   Handle file_;
   Handle properties_{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
