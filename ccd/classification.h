@@ -35,7 +35,7 @@ using Quadratics = std::array<std::array<std::array<Bounded<Real>, 3>, Functions
 
 /// Puts one vector-valued quadratic of a generated predicate, [coefficient][axis], into its place.
 template <class Real, std::size_t Functions>
-void place(Quadratics<Real, Functions>& z, std::size_t function, const Bounded<Real> (&m)[3][3]) {
+TIGHTROPE_HOST_DEVICE void place(Quadratics<Real, Functions>& z, std::size_t function, const Bounded<Real> (&m)[3][3]) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < 3; ++i) z[axis][function][i] = m[i][axis];
   }
@@ -46,7 +46,7 @@ template <std::size_t Functions>
 using HullSigns = std::array<std::array<Sign, Functions>, 3>;
 
 template <class Signs, class Real, std::size_t Functions>
-HullSigns<Functions> hull_signs(const Quadratics<Real, Functions>& z, Signs& signs) {
+TIGHTROPE_HOST_DEVICE HullSigns<Functions> hull_signs(const Quadratics<Real, Functions>& z, Signs& signs) {
   HullSigns<Functions> result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t f = 0; f < Functions; ++f) {
@@ -72,7 +72,8 @@ constexpr bool any_opposite(const std::array<Sign, N>& s) {
 /// The inside test at the possible roots of a piece: removes those at which in some axis two functions have opposite
 /// signs. True if none is left. `hulls`: signs that the functions are known to have on the whole piece.
 template <class Bound, class Real, class Signs, std::size_t Functions>
-bool reject_roots(Piece<Real>& piece, Quadratics<Real, Functions>& z, const HullSigns<Functions>& hulls, Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool reject_roots(Piece<Real>& piece, Quadratics<Real, Functions>& z,
+                                        const HullSigns<Functions>& hulls, Signs& signs) {
   for (std::size_t axis = 0; axis < 3 && piece.any(); ++axis) {
     if (any_opposite(hulls[axis])) return true;
     std::array<Sign, Functions> first = hulls[axis];
@@ -91,13 +92,13 @@ bool reject_roots(Piece<Real>& piece, Quadratics<Real, Functions>& z, const Hull
 
 /// One of the two parts of [0, 1] at an inflection: classification, then inside test. True if it holds no contact.
 template <class Bound, class Real, class Signs, std::size_t Functions>
-bool reject_part(const Bounded<Real> (&k)[4], const Bounded<Real> (&q)[3], Sign bend, Quadratics<Real, Functions>& z,
-                 Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool reject_part(const Bounded<Real> (&k)[4], const Bounded<Real> (&q)[3], Sign bend,
+                                       Quadratics<Real, Functions>& z, Signs& signs) {
   Piece<Real> piece;
   const std::array<Sign, 4> k_signs = read_all(signs, k);
   const std::array<Sign, 3> q_signs = read_all(signs, q);
-  std::copy_n(k, 4, piece.k.begin());
-  std::copy_n(q, 3, piece.q.begin());
+  copy_numbers(k, 4, piece.k.data());
+  copy_numbers(q, 3, piece.q.data());
   if (!rescale(piece.k) || !rescale(piece.q)) return false;
   classify_piece(piece, k_signs, q_signs, bend, true);
   if (piece.possible.first && piece.possible.second && misses_zero<Bound>(piece, k_signs, q_signs, signs)) return true;
@@ -106,16 +107,15 @@ bool reject_part(const Bounded<Real> (&k)[4], const Bounded<Real> (&q)[3], Sign 
 
 /// The quadratics on the part of [0, 1] before (after) t / (s + t).
 template <class Bound, class Real, std::size_t Functions>
-std::pair<Quadratics<Real, Functions>, Quadratics<Real, Functions>> split(Quadratics<Real, Functions>& z,
-                                                                          const Bounded<Real>& s,
-                                                                          const Bounded<Real>& t) {
+TIGHTROPE_HOST_DEVICE std::pair<Quadratics<Real, Functions>, Quadratics<Real, Functions>> split(
+    Quadratics<Real, Functions>& z, const Bounded<Real>& s, const Bounded<Real>& t) {
   std::pair<Quadratics<Real, Functions>, Quadratics<Real, Functions>> parts;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t f = 0; f < Functions; ++f) {
       rescale(z[axis][f]);
       const auto part = generated::split_quadratic<Bound, Real>::evaluate_in_range(z[axis][f].data(), s, t);
-      std::copy_n(part.before, 3, parts.first[axis][f].begin());
-      std::copy_n(part.after, 3, parts.second[axis][f].begin());
+      copy_numbers(part.before, 3, parts.first[axis][f].data());
+      copy_numbers(part.after, 3, parts.second[axis][f].data());
     }
   }
   return parts;
@@ -124,8 +124,9 @@ std::pair<Quadratics<Real, Functions>, Quadratics<Real, Functions>> split(Quadra
 /// Splits at the inflection, where Y'' = 0: Y' is exactly monotone on both sides of its exact parameter, and the two
 /// parts cover [0, 1] wherever that lies (MATH 3.1). True if neither part holds a contact.
 template <class Bound, class Real, class Signs, std::size_t Functions>
-bool reject_parts(const Piece<Real>& whole, const Bounded<Real> (&c)[2], Sign fall, const std::array<Sign, 2>& bends,
-                  Quadratics<Real, Functions>& z, Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool reject_parts(const Piece<Real>& whole, const Bounded<Real> (&c)[2], Sign fall,
+                                        const std::array<Sign, 2>& bends, Quadratics<Real, Functions>& z,
+                                        Signs& signs) {
   // The bend vanishes at c0 / (c0 - c1) = t / (s + t) with (s, t) = (-c1, c0) sg(c0 - c1), so that s + t > 0.
   Bounded<Real> weights[2] = {{-c[1].value, c[1].bound}, c[0]};
   if (fall == Sign::negative) {
@@ -141,16 +142,17 @@ bool reject_parts(const Piece<Real>& whole, const Bounded<Real> (&c)[2], Sign fa
 
 /// The whole decision, given the coefficients k of the cubic and a function that computes the quadratics.
 template <class Bound, class Real, class Signs, class ComputeQuadratics>
-bool may_touch(const Bounded<Real> (&k)[4], Signs& signs, const ComputeQuadratics& compute_quadratics) {
+TIGHTROPE_HOST_DEVICE bool may_touch(const Bounded<Real> (&k)[4], Signs& signs,
+                                     const ComputeQuadratics& compute_quadratics) {
   const std::array<Sign, 4> k_signs = read_all(signs, k);
   if (common(k_signs) != Sign::uncertain) return false;
   Piece<Real> whole;
-  std::copy_n(k, 4, whole.k.begin());
+  copy_numbers(k, 4, whole.k.data());
   if (!rescale(whole.k)) return true;
   const auto slopes = generated::differences<Bound, Real>::evaluate_in_range(whole.k.data());
   const std::array<Sign, 3> q_signs = read_all(signs, slopes.q);
   const std::array<Sign, 2> bends = read_all(signs, slopes.c);
-  std::copy_n(slopes.q, 3, whole.q.begin());
+  copy_numbers(slopes.q, 3, whole.q.data());
   if (!rescale(whole.q)) return true;
   classify_piece(whole, k_signs, q_signs, bends[0], common(bends) != Sign::uncertain);
   if (!whole.any()) return false;
@@ -171,7 +173,7 @@ bool may_touch(const Bounded<Real> (&k)[4], Signs& signs, const ComputeQuadratic
 /// Evaluates the polynomials of a vertex-face query (MATH 1.3) whose coordinates are of moderate size, `scaled` if they
 /// come from `normalize`; `decide` gets the coefficients of the cubic and a function that computes the quadratics.
 template <class Bound, class Real, class Decide>
-bool with_vertex_face_polynomials(const Real* points, bool scaled, const Decide& decide) {
+TIGHTROPE_HOST_DEVICE bool with_vertex_face_polynomials(const Real* points, bool scaled, const Decide& decide) {
   using predicate = generated::vertex_face<Bound, Real>;
   const MovingPoint<Real> p = moving_point(points, 0);
   std::array<std::pair<Real, MovingPoint<Real>>, 3> face;  // nearest vertex first
@@ -202,7 +204,7 @@ bool with_vertex_face_polynomials(const Real* points, bool scaled, const Decide&
 
 /// Edge-edge, likewise.
 template <class Bound, class Real, class Decide>
-bool with_edge_edge_polynomials(const Real* points, bool scaled, const Decide& decide) {
+TIGHTROPE_HOST_DEVICE bool with_edge_edge_polynomials(const Real* points, bool scaled, const Decide& decide) {
   using predicate = generated::edge_edge<Bound, Real>;
   MovingPoint<Real> a = moving_point(points, 0), b = moving_point(points, 1);
   MovingPoint<Real> c = moving_point(points, 2), d = moving_point(points, 3);
@@ -237,7 +239,7 @@ bool with_edge_edge_polynomials(const Real* points, bool scaled, const Decide& d
 }
 
 template <class Bound, class Real, class Decide>
-bool with_polynomials(Kind kind, const Real* points, bool scaled, const Decide& decide) {
+TIGHTROPE_HOST_DEVICE bool with_polynomials(Kind kind, const Real* points, bool scaled, const Decide& decide) {
   switch (kind) {
     case Kind::vertex_face:
       return with_vertex_face_polynomials<Bound>(points, scaled, decide);
@@ -248,7 +250,7 @@ bool with_polynomials(Kind kind, const Real* points, bool scaled, const Decide& 
 }
 
 template <class Bound, class Real, class Signs>
-bool may_touch(Kind kind, const Real* points, bool scaled, Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool may_touch(Kind kind, const Real* points, bool scaled, Signs& signs) {
   return with_polynomials<Bound>(kind, points, scaled, [&](const auto& k, const auto& compute_quadratics) {
     return may_touch<Bound>(k, signs, compute_quadratics);
   });
@@ -267,7 +269,7 @@ struct FirstLook<bound::none> {
 
 /// Are the four points never in one plane, by the signs of the cubic's coefficients (MATH 2.1, step 1)?
 template <class Bound, class Real, class Signs>
-bool never_coplanar(Kind kind, const Real* points, Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool never_coplanar(Kind kind, const Real* points, Signs& signs) {
   const MovingPoint<Real> a = moving_point(points, 0), b = moving_point(points, 1);
   const MovingPoint<Real> c = moving_point(points, 2), d = moving_point(points, 3);
   switch (kind) {
@@ -291,7 +293,7 @@ bool never_coplanar(Kind kind, const Real* points, Signs& signs) {
 /// Is one feature on one side of the other along a coordinate axis during the whole step (MATH 1.4 c)? Differences of
 /// points are linear in t, so the ends of the step decide, and the sign of a rounded difference is exact.
 template <class Real, class Signs>
-bool separated(Kind kind, const Real* points, Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool separated(Kind kind, const Real* points, Signs& signs) {
   for (int axis = 0; axis < 3; ++axis) {
     std::array<Sign, 8> sides;
     std::size_t count = 0;
@@ -305,15 +307,17 @@ bool separated(Kind kind, const Real* points, Signs& signs) {
   return false;
 }
 
-/// Any query: `points` holds 24 numbers. Not finite: true. Contact needs coplanar points, no contradiction among the
-/// projected quadratics, and no separating axis (MATH 1.4); each is asked only where the ones before leave it open.
+/// Is it clear at the first look that there is no contact?
 template <class Bound, class Real, class Signs>
-bool collides(Kind kind, const Real* points, Signs& signs) {
-  if (has_moderate_coordinates(points)) {
-    if (never_coplanar<typename FirstLook<Bound>::type>(kind, points, signs)) return false;
-    if (spread(points) >= least_spread<Real>) {
-      return may_touch<Bound>(kind, points, false, signs) && !separated(kind, points, signs);
-    }
+TIGHTROPE_HOST_DEVICE bool rejected_at_first_look(Kind kind, const Real* points, Signs& signs) {
+  return has_moderate_coordinates(points) && never_coplanar<typename FirstLook<Bound>::type>(kind, points, signs);
+}
+
+/// All but the first look.
+template <class Bound, class Real, class Signs>
+TIGHTROPE_HOST_DEVICE bool collides_by_second_look(Kind kind, const Real* points, Signs& signs) {
+  if (has_moderate_coordinates(points) && spread(points) >= least_spread<Real>) {
+    return may_touch<Bound>(kind, points, false, signs) && !separated(kind, points, signs);
   }
   const NormalizedQuery<Real> query = normalize(points);
   switch (query.kind) {
@@ -324,6 +328,13 @@ bool collides(Kind kind, const Real* points, Signs& signs) {
       return true;
   }
   return true;
+}
+
+/// Any query: `points` holds 24 numbers. Not finite: true. Contact needs coplanar points, no contradiction among the
+/// projected quadratics, and no separating axis (MATH 1.4); each is asked only where the ones before leave it open.
+template <class Bound, class Real, class Signs>
+TIGHTROPE_HOST_DEVICE bool collides(Kind kind, const Real* points, Signs& signs) {
+  return !rejected_at_first_look<Bound>(kind, points, signs) && collides_by_second_look<Bound>(kind, points, signs);
 }
 
 }  // namespace tightrope::ccd

@@ -11,6 +11,7 @@
 #include <span>
 #include <type_traits>
 
+#include "ccd/host_device.h"
 #include "tightrope/sign.h"
 
 namespace tightrope::ccd {
@@ -38,7 +39,7 @@ inline constexpr Real rescaling_limit = power_of_two<Real>(std::numeric_limits<R
 
 /// The power of two that takes x into [1/2, 1); 0 < x < rescaling_limit. A subnormal x is only taken below 1.
 template <class Real>
-Real scale_to_one(Real x) {
+TIGHTROPE_HOST_DEVICE Real scale_to_one(Real x) {
   using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
   constexpr int mantissa_bits = std::numeric_limits<Real>::digits - 1;
   constexpr Bits bias = std::numeric_limits<Real>::max_exponent - 1;
@@ -54,7 +55,7 @@ Real scale_to_one(Real x) {
 /// bound is larger than 2^52 (2^23) times that, the loss (less than 2^-1074, 2^-149) is covered by the inflation that a
 /// bounded input gets on entry (MATH 4.3).
 template <class Real, std::size_t Extent>
-bool rescale(std::span<Bounded<Real>, Extent> tuple) {
+TIGHTROPE_HOST_DEVICE bool rescale(std::span<Bounded<Real>, Extent> tuple) {
   Real largest = 0;
   bool finite = true;
   for (const Bounded<Real>& x : tuple) {
@@ -72,11 +73,11 @@ bool rescale(std::span<Bounded<Real>, Extent> tuple) {
   return true;
 }
 template <class Real, std::size_t N>
-bool rescale(std::array<Bounded<Real>, N>& tuple) {
+TIGHTROPE_HOST_DEVICE bool rescale(std::array<Bounded<Real>, N>& tuple) {
   return rescale(std::span(tuple));
 }
 template <class Real, std::size_t N>
-bool rescale(Bounded<Real> (&tuple)[N]) {
+TIGHTROPE_HOST_DEVICE bool rescale(Bounded<Real> (&tuple)[N]) {
   return rescale(std::span(tuple));
 }
 

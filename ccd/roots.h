@@ -31,7 +31,7 @@ struct quadratic_at_roots;
 namespace tightrope::ccd {
 
 template <class Signs, class Real, std::size_t N>
-std::array<Sign, N> read_all(Signs& signs, const Bounded<Real> (&numbers)[N]) {
+TIGHTROPE_HOST_DEVICE std::array<Sign, N> read_all(Signs& signs, const Bounded<Real> (&numbers)[N]) {
   std::array<Sign, N> result;
   for (std::size_t i = 0; i < N; ++i) result[i] = signs(numbers[i]);
   return result;
@@ -44,14 +44,14 @@ struct Piece {
   std::array<Bounded<Real>, 3> q;  ///< of the slope, rescaled
   Course course = Course::unknown;
   Branches<bool> possible{false, true};  ///< branches on which there may be a root
-  bool any() const { return possible.first || possible.second; }
+  TIGHTROPE_HOST_DEVICE bool any() const { return possible.first || possible.second; }
 };
 
 /// Which roots are possible, from the signs alone; the piece's course is set. k, q: signs of the coefficients; bend: of
 /// Y'' on the piece; slope_is_monotone: Y' is known to be exactly monotone on the piece.
 template <class Real>
-void classify_piece(Piece<Real>& piece, const std::array<Sign, 4>& k, const std::array<Sign, 3>& q, Sign bend,
-                    bool slope_is_monotone) {
+TIGHTROPE_HOST_DEVICE void classify_piece(Piece<Real>& piece, const std::array<Sign, 4>& k,
+                                          const std::array<Sign, 3>& q, Sign bend, bool slope_is_monotone) {
   if (common(k) != Sign::uncertain) {
     piece.possible = {false, false};
     return;
@@ -73,7 +73,7 @@ void classify_piece(Piece<Real>& piece, const std::array<Sign, 4>& k, const std:
 
 /// The signs of the linear function with coefficients l at the roots of the piece: table B.
 template <class Bound, class Real, class Signs>
-Branches<Sign> linear_signs(const Piece<Real>& piece, const Bounded<Real> (&l)[2], Signs& signs) {
+TIGHTROPE_HOST_DEVICE Branches<Sign> linear_signs(const Piece<Real>& piece, const Bounded<Real> (&l)[2], Signs& signs) {
   const Branches<Sign> unknown{Sign::uncertain, Sign::uncertain};
   const Sign a = signs(l[0]);
   const Sign b = signs(l[1]);
@@ -95,7 +95,8 @@ Branches<Sign> linear_signs(const Piece<Real>& piece, const Bounded<Real> (&l)[2
 
 /// The signs of the quadratic with coefficients j (rescaled) at the roots of the piece: table C.
 template <class Bound, class Real, class Signs>
-Branches<Sign> quadratic_signs(const Piece<Real>& piece, const std::array<Bounded<Real>, 3>& j, Signs& signs) {
+TIGHTROPE_HOST_DEVICE Branches<Sign> quadratic_signs(const Piece<Real>& piece, const std::array<Bounded<Real>, 3>& j,
+                                                     Signs& signs) {
   using predicate = generated::quadratic_at_roots<Bound, Real>;
   const Branches<Sign> unknown{Sign::uncertain, Sign::uncertain};
   if (piece.course == Course::unknown) return unknown;
@@ -110,12 +111,21 @@ Branches<Sign> quadratic_signs(const Piece<Real>& piece, const std::array<Bounde
 
 /// A guess of the parameter in [0, 1] where the slope with Bernstein coefficients q vanishes; any value will do.
 template <class Real>
-Real guess_extremum(const std::array<Bounded<Real>, 3>& q);
+TIGHTROPE_HOST_DEVICE Real guess_extremum(const std::array<Bounded<Real>, 3>& q) {
+  // q0 (1-t)^2 + 2 q1 t (1-t) + q2 t^2 = 0 for s = t / (1 - t): q2 s^2 + 2 q1 s + q0 = 0. Of a valley q0 <= 0 <= q2, of
+  // a hill q0 >= 0 >= q2, so that s = (-q1 +- root) / q2 with the sign of q2, written without cancellation.
+  const Real q0 = q[0].value, q1 = q[1].value, q2 = q[2].value;
+  const Real root = std::sqrt(std::max(tightrope::product(q1, q1) - tightrope::product(q0, q2), Real{0}));
+  const Real numerator = std::fabs(q0), denominator = (q2 < 0 ? -q1 : q1) + root;
+  const Real t = numerator / (numerator + denominator);
+  return t >= 0 && t <= 1 ? t : Real{0.5};
+}
 
 /// Is the piece, a valley or hill with possible roots on both branches, without roots? Proved by the tangent at a guess
 /// of the extremum or by the Root-Finding Lemma; k, q: signs of the coefficients.
 template <class Bound, class Real, class Signs>
-bool misses_zero(const Piece<Real>& piece, const std::array<Sign, 4>& k, const std::array<Sign, 3>& q, Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool misses_zero(const Piece<Real>& piece, const std::array<Sign, 4>& k,
+                                       const std::array<Sign, 3>& q, Signs& signs) {
   // Without this both proofs have a hole: where q0 is uncertain a "valley" may be a rising concave curve, whose tangent
   // lies above it, and whose extremum lies outside the piece.
   if (!extremum_decides(piece.course, q[0], q[2], k[0], k[3])) return false;

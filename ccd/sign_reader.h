@@ -4,13 +4,14 @@
 
 #include <cstdint>
 
+#include "ccd/host_device.h"
 #include "tightrope/sign.h"
 
 namespace tightrope::ccd {
 
 struct SignReader {
   template <class Real>
-  Sign operator()(const Bounded<Real>& x) const {
+  TIGHTROPE_HOST_DEVICE Sign operator()(const Bounded<Real>& x) const {
     return sign(x);
   }
 };

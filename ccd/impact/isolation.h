@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "ccd/host_device.h"
 #include "ccd/tables.h"
 #include "tightrope/sign.h"
 
@@ -29,14 +30,14 @@ using Cubic = std::array<Bounded<double>, 4>;
 /// Y > 0 after it (negative: the other way round); `uncertain` if there may be more roots. By Descartes' rule
 /// (MATH 2.1), or because Y is monotone; k: signs of the coefficients.
 template <class Signs>
-Sign crossing_direction(const Cubic& y, const std::array<Sign, 4>& k, Signs& signs) {
+TIGHTROPE_HOST_DEVICE Sign crossing_direction(const Cubic& y, const std::array<Sign, 4>& k, Signs& signs) {
   if (const Sign single = single_crossing(k[0], k[1], k[2], k[3]); single != Sign::uncertain) return single;
   const auto slopes = generated::cubic_slopes<bound::tight, double>::evaluate_in_range(y.data());
   return common(common(signs(slopes.q[0]), signs(slopes.q[1])), signs(slopes.q[2]));
 }
 
 /// About where the cubic crosses zero: Newton's method, guarded by bisection. How good it is decides nothing.
-inline double estimated_crossing(const Cubic& y) {
+TIGHTROPE_HOST_DEVICE inline double estimated_crossing(const Cubic& y) {
   const double k[4] = {y[0].value, y[1].value, y[2].value, y[3].value};
   const bool rising = k[3] > k[0];
   double low = 0, high = 1;
@@ -64,7 +65,8 @@ struct Bracket {
 /// Left of the root Y has the sign of -direction, right of it that of direction, or there is no root at all: so a
 /// definite sign of Y at l, opposite to the direction, puts every root right of l.
 template <class Signs>
-std::optional<Bracket> isolated_crossing(const Cubic& y, const std::array<Sign, 4>& k, Sign direction, Signs& signs) {
+TIGHTROPE_HOST_DEVICE std::optional<Bracket> isolated_crossing(const Cubic& y, const std::array<Sign, 4>& k,
+                                                               Sign direction, Signs& signs) {
   using value_at = generated::cubic_at<bound::tight, double>;
   const double t = estimated_crossing(y);
   const double plain[4] = {y[0].value, y[1].value, y[2].value, y[3].value};

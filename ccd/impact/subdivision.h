@@ -43,11 +43,11 @@ struct Finding {
 
 /// lo + w x of a part [lo, lo + w] of the step, x in [0, 1], rounded down and up. lo is 0 or at least w, a power of
 /// two, so that the error of the sum is exact (Dekker's fast two-sum) and one step to the neighbour is enough.
-inline double time_below(double lo, double w, double x) {
+TIGHTROPE_HOST_DEVICE inline double time_below(double lo, double w, double x) {
   const double t = lo + w * x;
   return w * x - (t - lo) < 0 ? std::nextafter(t, 0.0) : t;
 }
-inline double time_above(double lo, double w, double x) {
+TIGHTROPE_HOST_DEVICE inline double time_above(double lo, double w, double x) {
   const double t = lo + w * x;
   return w * x - (t - lo) > 0 ? std::nextafter(t, 2.0) : t;
 }
@@ -58,10 +58,11 @@ class Subdivision {
   using Z = Quadratics<double, Functions>;
 
   /// t_max: later contacts do not count.
-  Subdivision(Question question, double t_max, Signs& signs) : question_(question), t_max_(t_max), signs_(signs) {}
+  TIGHTROPE_HOST_DEVICE Subdivision(Question question, double t_max, Signs& signs)
+      : question_(question), t_max_(t_max), signs_(signs) {}
 
   /// Asked when: the first contact. Asked whether: any.
-  Finding operator()(const Cubic& k, const Z& z) {
+  TIGHTROPE_HOST_DEVICE Finding operator()(const Cubic& k, const Z& z) {
     nodes_[0] = {k, z, 0, 1};
     std::size_t waiting = 1;
     bool open = false;
@@ -71,7 +72,7 @@ class Subdivision {
       const Finding found = look(node);
       if (found.verdict == Verdict::no_contact) continue;
       if (found.verdict == Verdict::contact) return found;
-      const bool divide = divide_ && visited < most_visits && waiting + 2 <= nodes_.size();
+      const bool divide = divide_ && visited < most_visits;
       if (divide) {
         halve(node, nodes_[waiting + 1]);  // into the later and, on top, the earlier half
         waiting += 2;
@@ -93,7 +94,7 @@ class Subdivision {
   static constexpr int most_visits = 12;  ///< more decide little that exact arithmetic would not decide at once
 
   /// Decides a part of the step if it can; else sets whether halving it may help.
-  Finding look(const Node& node) {
+  TIGHTROPE_HOST_DEVICE Finding look(const Node& node) {
     std::array<Sign, 4> k;
     for (std::size_t i = 0; i < 4; ++i) k[i] = signs_(node.y[i]);
     divide_ = true;
@@ -113,7 +114,7 @@ class Subdivision {
   }
 
   /// The part's only root of Y is in the bracket: its quadratics decide.
-  Finding at_crossing(const Node& node, const Bracket& bracket) {
+  TIGHTROPE_HOST_DEVICE Finding at_crossing(const Node& node, const Bracket& bracket) {
     divide_ = false;
     bool inside = false;
     for (const auto& axis : node.z) {
@@ -134,7 +135,7 @@ class Subdivision {
   }
 
   /// Everything that is not settled is smaller than its bound: halves cannot tell more.
-  bool lost_in_noise(const Node& node) {
+  TIGHTROPE_HOST_DEVICE bool lost_in_noise(const Node& node) {
     for (const Bounded<double>& x : node.y) {
       if (signs_(x) != Sign::uncertain) return false;
     }
@@ -149,16 +150,16 @@ class Subdivision {
   }
 
   /// The node becomes its later half.
-  static void halve(Node& node, Node& earlier) {
+  TIGHTROPE_HOST_DEVICE static void halve(Node& node, Node& earlier) {
     const double width = node.width / 2;
     const auto y = generated::halved_cubic<bound::tight, double>::evaluate_in_range(node.y.data());
-    std::copy_n(y.before, 4, earlier.y.begin());
-    std::copy_n(y.after, 4, node.y.begin());
+    copy_numbers(y.before, 4, earlier.y.data());
+    copy_numbers(y.after, 4, node.y.data());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (std::size_t f = 0; f < Functions; ++f) {
         const auto z = generated::halved_quadratic<bound::tight, double>::evaluate_in_range(node.z[axis][f].data());
-        std::copy_n(z.before, 3, earlier.z[axis][f].begin());
-        std::copy_n(z.after, 3, node.z[axis][f].begin());
+        copy_numbers(z.before, 3, earlier.z[axis][f].data());
+        copy_numbers(z.after, 3, node.z[axis][f].data());
       }
     }
     earlier.lo = node.lo;
@@ -170,7 +171,7 @@ class Subdivision {
   double t_max_;
   Signs& signs_;
   bool divide_ = true;
-  std::array<Node, 17> nodes_;  ///< depth at most 16
+  std::array<Node, most_visits + 1> nodes_;  ///< each visit takes one and leaves two at most
 };
 
 }  // namespace tightrope::ccd

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "ccd/host_device.h"
 #include "tightrope/sign.h"
 
 namespace tightrope::generated {
@@ -35,7 +36,7 @@ constexpr Real gamma(int k) {
 
 /// E + gamma(3 n) M of Lemma S2, rounded up.
 template <int Degree, class Real, std::size_t N>
-Real casteljau_bound(const std::array<Bounded<Real>, N>& c) {
+TIGHTROPE_HOST_DEVICE Real casteljau_bound(const std::array<Bounded<Real>, N>& c) {
   static_assert(N == Degree + 1);
   Real largest = 0, error = 0;
   for (const Bounded<Real>& x : c) {
@@ -51,8 +52,8 @@ struct CubicValue;
 
 template <class Real>
 struct CubicValue<bound::safe, Real> {
-  explicit CubicValue(const std::array<Bounded<Real>, 4>& k) : bound(casteljau_bound<3>(k)) {}
-  Bounded<Real> operator()(const std::array<Bounded<Real>, 4>& k, Real t) const {
+  TIGHTROPE_HOST_DEVICE explicit CubicValue(const std::array<Bounded<Real>, 4>& k) : bound(casteljau_bound<3>(k)) {}
+  TIGHTROPE_HOST_DEVICE Bounded<Real> operator()(const std::array<Bounded<Real>, 4>& k, Real t) const {
     return {generated::safe_value<bound::none, Real>::evaluate_in_range(k.data(), t).y.value, bound};
   }
   Real bound;
@@ -60,15 +61,15 @@ struct CubicValue<bound::safe, Real> {
 
 template <class Real>
 struct CubicValue<bound::tight, Real> {
-  explicit CubicValue(const std::array<Bounded<Real>, 4>&) {}
-  Bounded<Real> operator()(const std::array<Bounded<Real>, 4>& k, Real t) const {
+  TIGHTROPE_HOST_DEVICE explicit CubicValue(const std::array<Bounded<Real>, 4>&) {}
+  TIGHTROPE_HOST_DEVICE Bounded<Real> operator()(const std::array<Bounded<Real>, 4>& k, Real t) const {
     return generated::safe_value<bound::tight, Real>::evaluate_in_range(k.data(), t).y;
   }
 };
 
 /// The Bernstein coefficients of a quadratic over [l, r].
 template <class Bound, class Real>
-std::array<Bounded<Real>, 3> restricted(const std::array<Bounded<Real>, 3>& m, Real l, Real r) {
+TIGHTROPE_HOST_DEVICE std::array<Bounded<Real>, 3> restricted(const std::array<Bounded<Real>, 3>& m, Real l, Real r) {
   constexpr bool constant_bound = std::is_same_v<Bound, bound::safe>;
   using Evaluated = std::conditional_t<constant_bound, bound::none, Bound>;
   const auto result = generated::safe_restriction<Evaluated, Real>::evaluate_in_range(m.data(), l, r);

@@ -130,7 +130,8 @@ std::optional<Contact<Real>> contact(Kind kind, const Real* points, Signs& signs
   using Result = std::optional<Contact<Real>>;
   const Result always = Contact<Real>{
       0, 1, kind == Kind::vertex_face ? std::array<Real, 4>{1, 1, 0, 0} : std::array<Real, 4>{1, 0, 1, 0}};
-  return culled_or(kind, points, signs, Result{}, always, [&](const Real* prepared, bool scaled) -> Result {
+  if (culled(kind, points, signs)) return std::nullopt;
+  return unculled(kind, points, signs, Result{}, always, [&](const Real* prepared, bool scaled) -> Result {
     Decision<Bound, Real, Signs> decision(kind, prepared, scaled, signs);
     const auto part = decision.first_contact();
     if (!part) return std::nullopt;

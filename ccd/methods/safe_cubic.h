@@ -40,14 +40,14 @@ namespace tightrope::ccd::safe {
 template <class Bound, class Real>
 class Cubic {
  public:
-  explicit Cubic(const std::array<Bounded<Real>, 4>& k) : k_(k), value_(k) {
+  TIGHTROPE_HOST_DEVICE explicit Cubic(const std::array<Bounded<Real>, 4>& k) : k_(k), value_(k) {
     for (std::size_t i = 0; i < 4; ++i) plain_[i] = k[i].value;
   }
-  Bounded<Real> operator()(Real t) const { return value_(k_, t); }
-  const std::array<Bounded<Real>, 4>& coefficients() const { return k_; }
-  const Real* plain() const { return plain_.data(); }
+  TIGHTROPE_HOST_DEVICE Bounded<Real> operator()(Real t) const { return value_(k_, t); }
+  TIGHTROPE_HOST_DEVICE const std::array<Bounded<Real>, 4>& coefficients() const { return k_; }
+  TIGHTROPE_HOST_DEVICE const Real* plain() const { return plain_.data(); }
   /// F' at t, about.
-  Real slope(Real t) const {
+  TIGHTROPE_HOST_DEVICE Real slope(Real t) const {
     return 3 * generated::safe_derivative<bound::none, Real>::evaluate_in_range(plain_.data(), t).slope.value;
   }
 
@@ -60,7 +60,7 @@ class Cubic {
 /// The parameters in (0, 1) at which the cubic has extrema, ascending, or its inflection where it has none: F' is least
 /// in magnitude there, and a cut keeps the hull of F' one-signed on both sides.
 template <class Real>
-QuadraticRoots<Real> extrema(const Real* k) {
+TIGHTROPE_HOST_DEVICE QuadraticRoots<Real> extrema(const Real* k) {
   const auto slopes = generated::safe_slopes<bound::none, Real>::evaluate_in_range(k);
   return quadratic_roots<Real>({slopes.q[0].value, slopes.q[1].value, slopes.q[2].value});
 }
@@ -69,7 +69,8 @@ QuadraticRoots<Real> extrema(const Real* k) {
 template <class Bound, class Real, class Signs>
 class MonotonePiece {
  public:
-  MonotonePiece(const Cubic<Bound, Real>& f, Interval<Real> piece, Bounded<Real> at_s, Bounded<Real> at_e, Signs& signs)
+  TIGHTROPE_HOST_DEVICE MonotonePiece(const Cubic<Bound, Real>& f, Interval<Real> piece, Bounded<Real> at_s,
+                                      Bounded<Real> at_e, Signs& signs)
       : f_(f), piece_(piece), rising_(at_e.value >= at_s.value), signs_(signs) {
     const auto slopes =
         generated::safe_slope<Bound, Real>::evaluate_in_range(f.coefficients().data(), piece.l, piece.r);
@@ -83,7 +84,7 @@ class MonotonePiece {
   }
 
   /// An interval that holds every root of F in the piece; none if there are none.
-  std::optional<Interval<Real>> roots() const {
+  TIGHTROPE_HOST_DEVICE std::optional<Interval<Real>> roots() const {
     if (at_s_ == Sign::positive || at_e_ == Sign::negative) return std::nullopt;
     if (at_s_ == Sign::uncertain && at_e_ == Sign::uncertain) return piece_;
     Interval<Real> held = piece_;
@@ -95,14 +96,14 @@ class MonotonePiece {
 
  private:
   /// With F rising (else of -F): negative if F < 0 from s to where y was computed, positive if F > 0 from there to e.
-  Sign side(Bounded<Real> y) const {
+  TIGHTROPE_HOST_DEVICE Sign side(Bounded<Real> y) const {
     const Sign sign =
         signs_(Bounded<Real>{y.value, (y.bound + slack_) * (1 + 4 * std::numeric_limits<Real>::epsilon())});
     return rising_ ? sign : -sign;
   }
 
   /// Takes what the side at t says into account: the roots in `held` are on one side of t then.
-  Sign narrow(Real t, Interval<Real>& held) const {
+  TIGHTROPE_HOST_DEVICE Sign narrow(Real t, Interval<Real>& held) const {
     const Sign s = side(f_(t));
     if (s == Sign::negative) held.l = t;
     if (s == Sign::positive) held.r = t;
@@ -112,7 +113,7 @@ class MonotonePiece {
   /// Newton's method from the middle, guarded by bisection of `held`, to a parameter where F is within its bound.
   /// Each step halves the interval or is Newton's; the number of steps is limited, and whatever happens `held` keeps
   /// every root, so that stopping early costs width and nothing else.
-  Real approach(Interval<Real>& held) const {
+  TIGHTROPE_HOST_DEVICE Real approach(Interval<Real>& held) const {
     constexpr int limit = 2 * std::numeric_limits<Real>::digits;
     Real t = held.l + (held.r - held.l) / 2;
     for (int step = 0; step < limit && held.l < t && t < held.r; ++step) {
@@ -129,7 +130,7 @@ class MonotonePiece {
 
   /// Looks for definite sides close to t, at distances of what F's bound means at its slope there, at most what it
   /// means where F has a triple root.
-  void tighten(Real t, Interval<Real>& held) const {
+  TIGHTROPE_HOST_DEVICE void tighten(Real t, Interval<Real>& held) const {
     constexpr Real eps = std::numeric_limits<Real>::epsilon();
     constexpr Real at_triple_root = sizeof(Real) == 8 ? Real(0x1p-17) : Real(0x1p-7);  // eps^(1/3)
     const Bounded<Real> y = f_(t);
@@ -156,7 +157,7 @@ struct Roots {
 };
 
 template <class Bound, class Real, class Signs>
-Roots<Real> roots(const Cubic<Bound, Real>& f, Signs& signs) {
+TIGHTROPE_HOST_DEVICE Roots<Real> roots(const Cubic<Bound, Real>& f, Signs& signs) {
   const QuadraticRoots<Real> cuts = extrema(f.plain());
   Roots<Real> all{};
   Real s = 0;

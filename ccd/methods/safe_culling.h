@@ -20,7 +20,7 @@ namespace tightrope::ccd::safe {
 /// differences are linear in t. The signs of rounded differences are exact. Without branches: most answers cannot be
 /// predicted.
 template <std::size_t Split, class Real, class Signs>
-bool separated_on_an_axis(const Real* points, Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool separated_on_an_axis(const Real* points, Signs& signs) {
   const auto min = [](Real a, Real b) { return a < b ? a : b; };
   const auto max = [](Real a, Real b) { return a > b ? a : b; };
   bool separated = false;
@@ -43,13 +43,13 @@ bool separated_on_an_axis(const Real* points, Signs& signs) {
 }
 
 template <class Real, class Signs>
-bool separated_on_an_axis(Kind kind, const Real* points, Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool separated_on_an_axis(Kind kind, const Real* points, Signs& signs) {
   return kind == Kind::vertex_face ? separated_on_an_axis<1>(points, signs) : separated_on_an_axis<2>(points, signs);
 }
 
 /// Have the coefficients of F one sign, by the points as they are named in the query?
 template <class Bound, class Real, class Signs>
-bool never_coplanar(Kind kind, const Real* points, Signs& signs) {
+TIGHTROPE_HOST_DEVICE bool never_coplanar(Kind kind, const Real* points, Signs& signs) {
   const auto a = moving_point(points, 0), b = moving_point(points, 1);
   const auto c = moving_point(points, 2), d = moving_point(points, 3);
   const auto one_sign = [&](const Bounded<Real>(&k)[4]) {  // without branches

@@ -17,7 +17,7 @@ struct PointPair {
   std::size_t second;
 };
 
-inline std::span<const PointPair> pairs_across(Kind kind) {
+TIGHTROPE_HOST_DEVICE inline std::span<const PointPair> pairs_across(Kind kind) {
   static constexpr std::array<PointPair, 3> vertex_face{{{0, 1}, {0, 2}, {0, 3}}};
   static constexpr std::array<PointPair, 4> edge_edge{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
   if (kind == Kind::vertex_face) return vertex_face;
@@ -31,7 +31,7 @@ template <class Real>
 struct Naming {
   using Point = MovingPoint<Real>;
 
-  Naming(Kind kind, const Real* points) {
+  TIGHTROPE_HOST_DEVICE Naming(Kind kind, const Real* points) {
     for (std::size_t i = 0; i < 4; ++i) {
       index[i] = i;
       x[i] = moving_point(points, static_cast<int>(i));
@@ -45,12 +45,12 @@ struct Naming {
   Point near_d{};
 
  private:
-  void swap(std::size_t i, std::size_t j) {
+  TIGHTROPE_HOST_DEVICE void swap(std::size_t i, std::size_t j) {
     std::swap(x[i], x[j]);
     std::swap(index[i], index[j]);
   }
 
-  void name_face() {
+  TIGHTROPE_HOST_DEVICE void name_face() {
     std::array<Real, 4> distance{0, distance_estimate(x[0], x[1]), distance_estimate(x[0], x[2]),
                                  distance_estimate(x[0], x[3])};
     for (const auto& [i, j] : {std::pair{1U, 2U}, {2U, 3U}, {1U, 2U}}) {
@@ -61,7 +61,7 @@ struct Naming {
     }
   }
 
-  void name_edges() {
+  TIGHTROPE_HOST_DEVICE void name_edges() {
     Real ac = distance_estimate(x[0], x[2]), ad = distance_estimate(x[0], x[3]);
     Real bc = distance_estimate(x[1], x[2]), bd = distance_estimate(x[1], x[3]);
     if (std::min(bc, bd) < std::min(ac, ad)) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "ccd/host_device.h"
 #include "tightrope/sign.h"
 
 namespace tightrope::generated {
@@ -39,7 +40,7 @@ struct QuadraticRoots {
 /// double root; the parameter of the extremum is returned then. The degenerate cases of A.3 (a = 0, b = 0) need no
 /// branch: a quotient that is infinite or NaN is no root in (0, 1).
 template <class Real>
-QuadraticRoots<Real> quadratic_roots(const std::array<Real, 3>& q) {
+TIGHTROPE_HOST_DEVICE QuadraticRoots<Real> quadratic_roots(const std::array<Real, 3>& q) {
   const auto power = generated::safe_quadratic<bound::none, Real>::evaluate_in_range(q.data());
   QuadraticRoots<Real> roots;
   const auto keep = [&](Real t) {

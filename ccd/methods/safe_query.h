@@ -57,11 +57,11 @@ template <class Bound, class Real, class Signs>
 class Decision {
  public:
   /// `scaled`: the points come from `normalize`, which may have lost something.
-  Decision(Kind kind, const Real* points, bool scaled, Signs& signs)
+  TIGHTROPE_HOST_DEVICE Decision(Kind kind, const Real* points, bool scaled, Signs& signs)
       : names_(kind, points), functions_(kind == Kind::vertex_face ? 3 : 4), scaled_(scaled), signs_(signs) {}
 
   /// The first part of the step that may hold a contact; none: no contact in [0, 1].
-  std::optional<Interval<Real>> first_contact() {
+  TIGHTROPE_HOST_DEVICE std::optional<Interval<Real>> first_contact() {
     std::array<Bounded<Real>, 4> k = cubic();
     if (hull(k) != Sign::uncertain) return std::nullopt;
     compute_moments();
@@ -77,10 +77,10 @@ class Decision {
     return std::nullopt;
   }
 
-  const Naming<Real>& names() const { return names_; }
+  TIGHTROPE_HOST_DEVICE const Naming<Real>& names() const { return names_; }
 
   /// The moments on a part of the step; the middle coefficient of each is about its value in the middle.
-  Moments<Real> moments_on(Interval<Real> part) const {
+  TIGHTROPE_HOST_DEVICE Moments<Real> moments_on(Interval<Real> part) const {
     Moments<Real> restricted_moments;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (std::size_t i = 0; i < 4; ++i) {
@@ -92,13 +92,13 @@ class Decision {
 
  private:
   template <std::size_t N>
-  Sign hull(const std::array<Bounded<Real>, N>& c) const {
+  TIGHTROPE_HOST_DEVICE Sign hull(const std::array<Bounded<Real>, N>& c) const {
     Sign all = signs_(c[0]);
     for (std::size_t i = 1; i < N; ++i) all = common(all, signs_(c[i]));
     return all;
   }
 
-  std::array<Bounded<Real>, 4> cubic() {
+  TIGHTROPE_HOST_DEVICE std::array<Bounded<Real>, 4> cubic() {
     const auto& [a, b, c, d] = names_.x;
     const auto finish = [&](auto& k) {
       if (scaled_) widen<Real>(k);
@@ -113,13 +113,13 @@ class Decision {
     return finish(result.k);
   }
 
-  void place(std::size_t function, const Bounded<Real> (&m)[3][3]) {
+  TIGHTROPE_HOST_DEVICE void place(std::size_t function, const Bounded<Real> (&m)[3][3]) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (std::size_t i = 0; i < 3; ++i) moments_[axis][function][i] = m[i][axis];
     }
   }
 
-  void compute_moments() {
+  TIGHTROPE_HOST_DEVICE void compute_moments() {
     const auto& [a, b, c, d] = names_.x;
     moments_ = {};
     if (functions_ == 3) {
@@ -140,7 +140,7 @@ class Decision {
 
   /// Step 3: do two moments contradict each other in a coordinate, by their signs on a part of the step?
   template <class SignOf>
-  bool moments_exclude(const SignOf& sign_of) const {
+  TIGHTROPE_HOST_DEVICE bool moments_exclude(const SignOf& sign_of) const {
     for (const auto& axis : moments_) {
       bool negative = false, positive = false;
       for (std::size_t i = 0; i < functions_; ++i) {
@@ -152,16 +152,16 @@ class Decision {
     }
     return false;
   }
-  bool moments_exclude() const {
+  TIGHTROPE_HOST_DEVICE bool moments_exclude() const {
     return moments_exclude([&](const std::array<Bounded<Real>, 3>& m) { return hull(m); });
   }
-  bool moments_exclude(Interval<Real> part) const {
+  TIGHTROPE_HOST_DEVICE bool moments_exclude(Interval<Real> part) const {
     return moments_exclude(
         [&](const std::array<Bounded<Real>, 3>& m) { return hull(restricted<Bound>(m, part.l, part.r)); });
   }
 
   /// Step 4: is one feature beyond the other in a coordinate all over the interval?
-  bool coordinate_excludes(Interval<Real> part) const {
+  TIGHTROPE_HOST_DEVICE bool coordinate_excludes(Interval<Real> part) const {
     const std::span<const PointPair> pairs = pairs_across(functions_ == 3 ? Kind::vertex_face : Kind::edge_edge);
     std::array<Sign, 3> sides{};
     for (const PointPair& pair : pairs) {
@@ -181,37 +181,39 @@ class Decision {
   }
 
   /// Step 1, diagonals: does one of the directions x+-y, y+-z, z+-x separate the features all the time?
-  bool diagonal_excludes() const {
+  TIGHTROPE_HOST_DEVICE bool diagonal_excludes() const {
     std::array<Sign, 6> sides{};
     const std::span<const PointPair> pairs = pairs_across(functions_ == 3 ? Kind::vertex_face : Kind::edge_edge);
     for (const PointPair& pair : pairs) {
       const MovingPoint<Real>& p = names_.x[pair.first];
       const MovingPoint<Real>& q = names_.x[pair.second];
       auto d = generated::safe_diagonals<Bound, Real>::evaluate_in_range(p.t0, p.t1, q.t0, q.t1);
-      std::size_t direction = 0;
-      for (Bounded<Real>* ends : {d.xy, d.x_y, d.yz, d.y_z, d.zx, d.z_x}) {
+      const std::array<Bounded<Real>*, 6> directions{d.xy, d.x_y, d.yz, d.y_z, d.zx, d.z_x};
+      for (std::size_t i = 0; i < directions.size(); ++i) {
+        Bounded<Real>* ends = directions[i];
         if (scaled_) widen<Real>(std::span(ends, 2));
         const Sign side = common(signs_(ends[0]), signs_(ends[1]));
-        sides[direction] = &pair == pairs.data() ? side : common(sides[direction], side);
-        ++direction;
+        sides[i] = &pair == pairs.data() ? side : common(sides[i], side);
       }
     }
-    return std::any_of(sides.begin(), sides.end(), [](Sign side) { return side != Sign::uncertain; });
+    bool separated = false;
+    for (const Sign side : sides) separated |= side != Sign::uncertain;
+    return separated;
   }
 
-  bool cubic_excludes(const Cubic<Bound, Real>& f, Interval<Real> part) const {
+  TIGHTROPE_HOST_DEVICE bool cubic_excludes(const Cubic<Bound, Real>& f, Interval<Real> part) const {
     const auto piece = generated::safe_piece<Bound, Real>::evaluate_in_range(f.coefficients().data(), part.l, part.r);
     return hull(std::array<Bounded<Real>, 4>{piece.part[0], piece.part[1], piece.part[2], piece.part[3]}) !=
            Sign::uncertain;
   }
 
   /// Is the part free of contact by steps 2 to 4?
-  bool excluded(const Cubic<Bound, Real>& f, Interval<Real> part) const {
+  TIGHTROPE_HOST_DEVICE bool excluded(const Cubic<Bound, Real>& f, Interval<Real> part) const {
     return moments_exclude(part) || coordinate_excludes(part) || cubic_excludes(f, part);
   }
 
   /// The first part of an interval of roots that may hold a contact.
-  std::optional<Interval<Real>> first_contact(const Cubic<Bound, Real>& f, Interval<Real> roots) {
+  TIGHTROPE_HOST_DEVICE std::optional<Interval<Real>> first_contact(const Cubic<Bound, Real>& f, Interval<Real> roots) {
     if (moments_exclude(roots) || coordinate_excludes(roots)) return std::nullopt;
     if (roots.r - roots.l < narrow) return roots;
     Candidates<Real> candidates(roots);
@@ -230,18 +232,30 @@ class Decision {
     return found;
   }
 
-  /// The first part of `part`, halved as long as it is wide and the budget lasts, that is not excluded (step 5).
-  std::optional<Interval<Real>> first_open(const Cubic<Bound, Real>& f, Interval<Real> part) {
-    if (excluded(f, part)) return std::nullopt;
-    const Real middle = part.l + (part.r - part.l) / 2;
-    if (part.r - part.l < narrow || budget_ <= 0 || middle <= part.l || middle >= part.r) return part;
-    --budget_;
-    if (const auto contact = first_open(f, {part.l, middle})) return contact;
-    return first_open(f, {middle, part.r});
+  /// The first part of `whole`, halved as long as it is wide and the budget lasts, that is not excluded (step 5).
+  TIGHTROPE_HOST_DEVICE std::optional<Interval<Real>> first_open(const Cubic<Bound, Real>& f, Interval<Real> whole) {
+    std::array<Real, most_halved + 1> ends;  // of the part that is looked at, on top, and of those after it
+    std::size_t waiting = 0;
+    ends[waiting++] = whole.r;
+    for (Real l = whole.l; waiting > 0;) {
+      const Interval<Real> part{l, ends[waiting - 1]};
+      if (excluded(f, part)) {
+        l = part.r;
+        --waiting;
+        continue;
+      }
+      const Real middle = part.l + (part.r - part.l) / 2;
+      if (part.r - part.l < narrow || budget_ <= 0 || middle <= part.l || middle >= part.r) return part;
+      --budget_;
+      ends[waiting++] = middle;
+    }
+    return std::nullopt;
   }
 
   /// Narrower parts are not halved: a contact in the limits of rounding.
   static constexpr Real narrow = sizeof(Real) == 8 ? Real(0x1p-26) : Real(0x1p-12);
+
+  static constexpr int most_halved = 64;
 
   using Face = generated::vertex_face<Bound, Real>;
   using Edges = generated::edge_edge<Bound, Real>;
@@ -249,37 +263,42 @@ class Decision {
   std::size_t functions_;
   bool scaled_;
   Signs& signs_;
-  int budget_ = 64;  ///< intervals that may be halved
+  int budget_ = most_halved;  ///< intervals that may be halved
   typename Face::State face_;
   typename Edges::State edges_;
   Moments<Real> moments_;
 };
 
-/// Calls `decide` with the points as they are, or scaled where that is needed, unless culling settles the query. Not
+/// Steps before any root finding: is it clear that there is no contact?
+template <class Real, class Signs>
+TIGHTROPE_HOST_DEVICE bool culled(Kind kind, const Real* points, Signs& signs) {
+  return has_moderate_coordinates(points) &&
+         (safe::never_coplanar<bound::safe>(kind, points, signs) || separated_on_an_axis(kind, points, signs));
+}
+
+/// Calls `decide` with the points of a query that is not culled, as they are, or scaled where that is needed. Not
 /// finite, or all points one all the time: `always`.
 template <class Real, class Signs, class Result, class Decide>
-Result culled_or(Kind kind, const Real* points, Signs& signs, const Result& never, const Result& always,
-                 const Decide& decide) {
-  if (has_moderate_coordinates(points)) {
-    if (never_coplanar<bound::safe>(kind, points, signs) || separated_on_an_axis(kind, points, signs)) return never;
-    if (spread(points) >= least_spread<Real>) return decide(points, false);
-  }
+TIGHTROPE_HOST_DEVICE Result unculled(Kind kind, const Real* points, Signs& signs, const Result& never,
+                                      const Result& always, const Decide& decide) {
+  if (has_moderate_coordinates(points) && spread(points) >= least_spread<Real>) return decide(points, false);
   const NormalizedQuery<Real> query = normalize(points);
   if (query.kind != NormalizedQuery<Real>::Kind::scaled) return always;
   if (separated_on_an_axis(kind, points, signs)) return never;
   return decide(query.points.data(), true);
 }
 
-/// Not inlined: the culling before it, which settles nearly every query, then needs few registers and no frame.
+/// All but the culling.
 template <class Bound, class Real, class Signs>
-[[gnu::noinline]] bool may_touch(Kind kind, const Real* points, bool scaled, Signs& signs) {
-  return Decision<Bound, Real, Signs>(kind, points, scaled, signs).first_contact().has_value();
+TIGHTROPE_RARE bool may_touch(Kind kind, const Real* points, Signs& signs) {
+  return unculled(kind, points, signs, false, true, [&](const Real* prepared, bool scaled) {
+    return Decision<Bound, Real, Signs>(kind, prepared, scaled, signs).first_contact().has_value();
+  });
 }
 
 template <class Bound, class Real, class Signs>
-bool collides(Kind kind, const Real* points, Signs& signs) {
-  return culled_or(kind, points, signs, false, true,
-                   [&](const Real* prepared, bool scaled) { return may_touch<Bound>(kind, prepared, scaled, signs); });
+TIGHTROPE_HOST_DEVICE bool collides(Kind kind, const Real* points, Signs& signs) {
+  return !culled(kind, points, signs) && may_touch<Bound>(kind, points, signs);
 }
 
 }  // namespace tightrope::ccd::safe

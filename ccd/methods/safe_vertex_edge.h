@@ -25,10 +25,10 @@ namespace tightrope::ccd::safe {
 template <class Real>
 class Candidates {
  public:
-  explicit Candidates(Interval<Real> within) : within_(within) {}
+  TIGHTROPE_HOST_DEVICE explicit Candidates(Interval<Real> within) : within_(within) {}
 
   /// Families (2) and (4) of one component of x_0i x x_ji: `m` its Bernstein coefficients over [0, 1].
-  void add_component(const std::array<Bounded<Real>, 3>& m) {
+  TIGHTROPE_HOST_DEVICE void add_component(const std::array<Bounded<Real>, 3>& m) {
     Real bound = 0, largest = 0;
     for (const Bounded<Real>& x : m) {
       bound = std::max(bound, x.bound);
@@ -42,15 +42,14 @@ class Candidates {
   }
 
   /// Vertex-vertex: the difference of two vertices in one coordinate, d0 and d1 at the ends of [0, 1].
-  void add_difference(Real d0, Real d1) {
+  TIGHTROPE_HOST_DEVICE void add_difference(Real d0, Real d1) {
     const Real size = std::max(magnitude(d0), magnitude(d1));
     add_root(d0 / (d0 - d1), std::numeric_limits<Real>::epsilon() * size, magnitude(d1 - d0));
   }
 
   /// Calls `visit` with each part until it returns true.
   template <class Visit>
-  bool any_part(const Visit& visit) {
-    std::sort(cuts_.begin(), cuts_.begin() + static_cast<std::ptrdiff_t>(count_));
+  TIGHTROPE_HOST_DEVICE bool any_part(const Visit& visit) const {
     Real l = within_.l;
     for (std::size_t i = 0; i < count_; ++i) {
       if (!(cuts_[i] > l)) continue;
@@ -62,7 +61,7 @@ class Candidates {
 
  private:
   /// Cuts on both sides of a root, where the bound of the function with this slope no longer hides its sign.
-  void add_root(Real t, Real bound, Real slope) {
+  TIGHTROPE_HOST_DEVICE void add_root(Real t, Real bound, Real slope) {
     constexpr Real eps = std::numeric_limits<Real>::epsilon();
     constexpr Real widest = Real(1) / 64;
     const Real distance = 4 * bound / slope + 8 * eps;
@@ -71,12 +70,15 @@ class Candidates {
     add_cut(t + distance);
   }
 
-  void add_cut(Real t) {
-    if (t > within_.l && t < within_.r && count_ < cuts_.size()) cuts_[count_++] = t;  // false for NaN
+  TIGHTROPE_HOST_DEVICE void add_cut(Real t) {
+    if (!(t > within_.l && t < within_.r) || count_ == cuts_.size()) return;  // NaN, too
+    std::size_t i = count_++;
+    for (; i > 0 && cuts_[i - 1] > t; --i) cuts_[i] = cuts_[i - 1];
+    cuts_[i] = t;
   }
 
   Interval<Real> within_;
-  std::array<Real, 108> cuts_;  ///< 12 components with 5 cuts each, 12 differences with 2: 84
+  std::array<Real, 108> cuts_;  ///< ascending; 12 components with 5 cuts each, 12 differences with 2: 84
   std::size_t count_ = 0;
 };
 

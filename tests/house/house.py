@@ -33,6 +33,8 @@ RULES = {
     "codegen/charts/": [r"codegen/charts/.*", r"fmt/.*", POSIX],
     "ccd/": [r"ccd/(?:methods/|impact/)?[\w.]+", API, r"Eigen/.*", RUNTIME, GENERATED],
     "ccd/batch/": [r"ccd/batch/.*", r"ccd/(?:impact/|methods/)?\w+\.h", API, RUNTIME, GENERATED, r"oneapi/tbb/\w+\.h", r"hwy/\w+\.h"],
+    "ccd/gpu/": [r"ccd/gpu/.*", r"ccd/batch/source\.h", r"ccd/(?:impact/|methods/)?\w+\.h", API, RUNTIME, GENERATED,
+                 r"cuda_runtime\.h"],
     "ccd/oracle/": [r"ccd/oracle/.*", r"ccd/tightrope/ccd\.h", r"gmp(?:xx)?\.h"],
     "ccd/query_io/": [r"ccd/query_io/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"hdf5\.h", POSIX],
     "ccd/scenes/": [r"ccd/(?:scenes|oracle|query_io)/.*", API, r"gmp(?:xx)?\.h", r"fmt/.*", r"Eigen/.*"],

@@ -1,0 +1,153 @@
+#pragma once
+/// A device that is none: memory with a limit, streams whose work waits until somebody waits for it, and failures on
+/// demand. What is wrong with the order of transfers, kernels and reuse of memory shows here as on a device that is
+/// slow.
+
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <map>
+
+#include "tests/gpu/host_stages.h"
+#include "tightrope/gpu.h"
+
+namespace tightrope::ccd::gpu {
+
+class SimulatedDevice {
+ public:
+  using Stream = int;  ///< 0, 1: its own; 2: a caller's
+
+  std::size_t memory_limit = std::numeric_limits<std::size_t>::max();  ///< of device and pinned memory together
+  long calls_until_failure = -1;                                       ///< negative: none fails
+  bool caller_pins = false;                                            ///< memory of the caller is pinned
+  long calls = 0;
+  std::size_t in_use = 0, most_in_use = 0;
+
+  SimulatedDevice() = default;
+  SimulatedDevice(const SimulatedDevice&) = delete;
+  SimulatedDevice& operator=(const SimulatedDevice&) = delete;
+  ~SimulatedDevice() {
+    for (auto& [memory, bytes] : blocks_) std::free(memory);
+  }
+  std::size_t blocks() const { return blocks_.size(); }
+  bool idle() const { return work_[0].empty() && work_[1].empty() && work_[2].empty(); }
+
+  Stream stream(int slot) const { return slot; }
+  void* device_memory(std::size_t bytes) { return allocate(bytes); }
+  void* pinned_memory(std::size_t bytes) { return allocate(bytes); }
+  void free_device(void* memory) { release(memory); }
+  void free_pinned(void* memory) { release(memory); }
+  bool is_pinned(const void*) const { return caller_pins; }
+
+  bool upload(Stream stream, void* to, std::size_t to_pitch, const void* from, std::size_t from_pitch,
+              std::size_t width, std::size_t rows) {
+    return enqueue(stream, [=] {
+      for (std::size_t row = 0; row < rows; ++row) {
+        std::memcpy(static_cast<char*>(to) + row * to_pitch, static_cast<const char*>(from) + row * from_pitch, width);
+      }
+    });
+  }
+  bool download(Stream stream, void* to, std::size_t to_pitch, const void* from, std::size_t from_pitch,
+                std::size_t width, std::size_t rows) {
+    return upload(stream, to, to_pitch, from, from_pitch, width, rows);
+  }
+
+  template <class Real>
+  bool run(Stream stream, Method method, Kind kind, const Chunk<Real>& chunk) {
+    return enqueue(stream, [=] {
+      *chunk.counters = {};
+      switch (method) {
+        case Method::bsc_float:
+          return run_on_host<Method::bsc_float>(kind, chunk);
+        case Method::bsc_safe:
+          return run_on_host<Method::bsc_safe>(kind, chunk);
+        case Method::tight:
+        case Method::bsc_exact:
+          return run_on_host<Method::tight>(kind, chunk);
+        case Method::safe:
+          return run_on_host<Method::safe>(kind, chunk);
+        case Method::safe_tight:
+          return run_on_host<Method::safe_tight>(kind, chunk);
+        case Method::tightrope:
+          return run_on_host<Method::tightrope>(kind, chunk);
+      }
+    });
+  }
+  template <class Real>
+  bool gather(Stream stream, const Chunk<Real>& chunk, std::size_t first, std::size_t count, Real* to) {
+    return enqueue(stream, [=] {
+      for (std::size_t k = first; k < first + count && k < chunk.counters->open; ++k) {
+        for (std::size_t c = 0; c < numbers_a_query; ++c) {
+          to[(k - first) * numbers_a_query + c] =
+              chunk.points[chunk.open[k] * chunk.query_stride + c * chunk.coordinate_stride];
+        }
+      }
+    });
+  }
+  template <class Real>
+  bool scatter(Stream stream, const Chunk<Real>& chunk, std::size_t first, std::size_t count,
+               const unsigned char* answers) {
+    return enqueue(stream, [=] {
+      for (std::size_t k = 0; k < count; ++k) chunk.results[chunk.open[first + k]] = answers[k];
+    });
+  }
+
+  bool mark(int slot, Stream stream) {
+    marks_[slot] = {stream, done_[stream] + work_[stream].size()};
+    return succeeds();
+  }
+  /// Does what was enqueued before the mark, and nothing more.
+  bool wait(int slot) {
+    const auto [stream, until] = marks_[slot];
+    while (done_[stream] < until) step(stream);
+    return succeeds();
+  }
+  void drain(Stream stream) {
+    while (!work_[stream].empty()) step(stream);
+  }
+  Result error() const { return {Status::device_error, "simulated"}; }
+
+ private:
+  struct Mark {
+    Stream stream = 0;
+    std::size_t until = 0;
+  };
+
+  bool succeeds() { return calls++ != calls_until_failure; }
+  bool enqueue(Stream stream, std::function<void()> work) {
+    if (!succeeds()) return false;
+    work_[stream].push_back(std::move(work));
+    return true;
+  }
+  void step(Stream stream) {
+    work_[stream].front()();
+    work_[stream].pop_front();
+    ++done_[stream];
+  }
+
+  void* allocate(std::size_t bytes) {
+    if (bytes > memory_limit - in_use) return nullptr;
+    void* memory = std::malloc(bytes);
+    std::memset(memory, 0xab, bytes);
+    blocks_[memory] = bytes;
+    in_use += bytes;
+    most_in_use = most_in_use > in_use ? most_in_use : in_use;
+    return memory;
+  }
+  void release(void* memory) {
+    const auto block = blocks_.find(memory);
+    if (block == blocks_.end()) std::abort();  // freed twice, or none of ours
+    in_use -= block->second;
+    blocks_.erase(block);
+    std::free(memory);
+  }
+
+  std::deque<std::function<void()>> work_[3];
+  std::size_t done_[3] = {};
+  Mark marks_[2];
+  std::map<void*, std::size_t> blocks_;
+};
+
+}  // namespace tightrope::ccd::gpu
