@@ -1,5 +1,7 @@
 #include "command/device.h"
 
+#include "tightrope/gpu.h"
+
 namespace tightrope::ccd {
 
 std::string_view name(Device device) {
@@ -18,11 +20,36 @@ std::string why_unusable(Device device) {
   switch (device) {
     case Device::cpu:
       return {};
-    case Device::gpu:
-      return "no GPU support in this build";
+    case Device::gpu: {
+      const gpu::DeviceCount devices = gpu::device_count();
+      if (devices.result.status == gpu::Status::built_without_cuda) return "no GPU support in this build";
+      return devices.result ? std::string{} : std::string("no GPU here: ") + devices.result.text;
+    }
   }
   return {};
 }
+
+namespace {
+
+template <class Real>
+BatchStatus on_gpu(const Queries<Real>& queries, unsigned char* results, Method method, int threads) {
+  static gpu::Workspace workspace;  // one device and one call at a time: its memory lasts as long as the command
+  const gpu::Result result = gpu::collides(queries, results, workspace, {.method = method, .threads = threads});
+  switch (result.status) {
+    case gpu::Status::done:
+      return BatchStatus::done;
+    case gpu::Status::out_of_memory:
+      return BatchStatus::out_of_memory;
+    case gpu::Status::built_without_cuda:
+    case gpu::Status::no_device:
+    case gpu::Status::invalid_argument:
+    case gpu::Status::device_error:
+      return BatchStatus::invalid_argument;
+  }
+  return BatchStatus::invalid_argument;
+}
+
+}  // namespace
 
 template <class Real>
 BatchStatus collides(const Queries<Real>& queries, unsigned char* results, Method method, const Execution& execution) {
@@ -32,7 +59,7 @@ BatchStatus collides(const Queries<Real>& queries, unsigned char* results, Metho
           queries, results,
           BatchOptions{.method = method, .threads = execution.threads, .instructions = execution.instructions});
     case Device::gpu:
-      break;
+      return on_gpu(queries, results, method, execution.threads);
   }
   return BatchStatus::invalid_argument;
 }
