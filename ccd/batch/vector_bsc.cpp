@@ -1,6 +1,8 @@
 /// Bernstein sign classification on vectors (ccd/classification.h): points never coplanar, and the hulls with the
 /// method's bound. `bsc_exact` begins as `tight` does.
 
+#include <utility>
+
 #include "ccd/batch/targets.h"
 #include "ccd/batch/vector_tests.h"
 #include "ccd/geometry.h"

@@ -1,6 +1,8 @@
 /// SafeCCD on vectors (ccd/methods/safe_query.h): culling, and the hulls of the cubic and of the moments with the
 /// method's bound.
 
+#include <utility>
+
 #include "ccd/batch/targets.h"
 #include "ccd/batch/vector_tests.h"
 #include "ccd/geometry.h"

@@ -36,11 +36,15 @@ template <class Real>
 struct Tile {
   Lanes<Real> x[24];  ///< points at t = 0, then at t = 1, three coordinates each
 
-  HWY_INLINE Tile(const Real* numbers, std::size_t pitch) {
-    for (std::size_t c = 0; c < 24; ++c) x[c] = hn::LoadU(typename Lanes<Real>::Tag(), numbers + c * pitch);
-  }
+  /// Without a loop: g++ would leave it one, and the numbers in memory.
+  HWY_INLINE Tile(const Real* numbers, std::size_t pitch) : Tile(numbers, pitch, std::make_index_sequence<24>()) {}
   HWY_INLINE const Lanes<Real>* t0(std::size_t point) const { return x + 3 * point; }
   HWY_INLINE const Lanes<Real>* t1(std::size_t point) const { return x + 12 + 3 * point; }
+
+ private:
+  template <std::size_t... C>
+  HWY_INLINE Tile(const Real* numbers, std::size_t pitch, std::index_sequence<C...>)
+      : x{hn::LoadU(typename Lanes<Real>::Tag(), numbers + C * pitch)...} {}
 };
 
 /// A point that moves, in registers: names of points differ from lane to lane.

@@ -1,6 +1,7 @@
 /// Method `tightrope` on vectors (ccd/impact/filter.h): its first look, and the later filters in one.
 
 #include <limits>
+#include <utility>
 
 #include "ccd/batch/targets.h"
 #include "ccd/batch/vector_tests.h"
