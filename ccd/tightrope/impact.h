@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "tightrope/plain.h"
+#include "tightrope/ccd.h"
 
 namespace tightrope::ccd {
 
