@@ -85,6 +85,21 @@ TEST(Pipeline, CrowdsOfOpenQueriesComeBackInPieces) {
   EXPECT_GT(simulation.report.open, 2 * open_at_once);
 }
 
+TEST(Pipeline, AForgottenWaitIsNoticed) {
+  const Sample<double>& all = sample<double>(Kind::vertex_face);
+  const std::vector<unsigned char> expected = all.answers(Method::tight);
+  std::vector<unsigned char> results(all.count(), 9);
+  SimulatedDevice device;
+  device.forgets_to_wait = true;
+  Report report;
+  {
+    Pipeline<SimulatedDevice> pipeline(device);
+    EXPECT_TRUE(pipeline.from_host(all.queries(Layout::by_query), results.data(), {.method = Method::tight}, report));
+  }
+  EXPECT_FALSE(device.idle());
+  EXPECT_NE(results, expected);
+}
+
 TEST(Pipeline, OpenQueriesAreLeftOnRequest) {
   const Sample<double>& all = sample<double>(Kind::vertex_face);
   const std::vector<unsigned char> exact = all.answers(Method::tightrope);

@@ -127,8 +127,11 @@ T minimum_of(T a, T b) {
   }
   return a < b ? a : b;
 }
+/// A defect: magnitudes keep their signs. The tests must notice.
+inline bool forgets_magnitudes = false;
 template <class T>
 T absolute(T a) {
+  if (forgets_magnitudes) return a;
   return a < 0 || (std::is_floating_point_v<T> && std::signbit(static_cast<double>(a))) ? -a : a;
 }
 inline std::uint32_t popc(std::uint32_t x) { return static_cast<std::uint32_t>(__builtin_popcount(x)); }

@@ -70,18 +70,24 @@ void run_on_host(Method method, Kind kind, const Chunk<Real>& chunk) {
   }
 }
 
+/// Runs the kernels of all stages that were made; false: none was.
+template <class Real>
+bool run_kernels(Method method, Kind kind, const Chunk<Real>& chunk) {
+  for (int stage = 0; stage < most_stages; ++stage) {
+    const ptx::Run run = kernel<Real>(method, kind, stage);
+    if (run == nullptr) return stage > 0;
+    const std::uint32_t all = (chunk.count + threads - 1) / threads;
+    ptx::launch(run, &chunk, sizeof(chunk), stage == 0 ? all : 2, threads);
+  }
+  return true;
+}
+
 template <class Real>
 bool expect_equal(Method method, const Sample<Real>& sample, Layout layout) {
   const Queries<Real> queries = sample.queries(layout);
   Memory<Real> expected(queries), found(queries);
+  if (!run_kernels(method, sample.kind, found.chunk)) return false;
   run_on_host(method, sample.kind, expected.chunk);
-  for (int stage = 0; stage < most_stages; ++stage) {
-    const ptx::Run run = kernel<Real>(method, sample.kind, stage);
-    if (run == nullptr && stage == 0) return false;
-    if (run == nullptr) break;
-    const std::uint32_t all = (found.chunk.count + threads - 1) / threads;
-    ptx::launch(run, &found.chunk, sizeof(found.chunk), stage == 0 ? all : 2, threads);
-  }
   EXPECT_EQ(found.results, expected.results) << name(method) << " " << name(sample.kind);
   EXPECT_EQ(std::count(found.results.begin(), found.results.end(), 9), 0);
   EXPECT_TRUE(std::equal(std::begin(found.counters.left), std::end(found.counters.left), expected.counters.left));
@@ -110,6 +116,18 @@ TEST(Ptx, AnswersAreThoseOfTheProcessor) {
     }
   }
   EXPECT_GE(tested, 8);
+}
+
+TEST(Ptx, AWrongInstructionIsNoticed) {
+  const Sample<double> sample(Kind::vertex_face, queries_a_scene);
+  const Queries<double> queries = sample.queries(Layout::by_coordinate);
+  Memory<double> expected(queries), found(queries);
+  run_on_host(Method::tightrope, sample.kind, expected.chunk);
+  ptx::forgets_magnitudes = true;
+  run_kernels(Method::tightrope, sample.kind, found.chunk);
+  ptx::forgets_magnitudes = false;
+  EXPECT_FALSE(std::equal(std::begin(found.counters.left), std::end(found.counters.left), expected.counters.left));
+  EXPECT_NE(found.results, expected.results);
 }
 
 }  // namespace

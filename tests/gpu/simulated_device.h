@@ -22,6 +22,7 @@ class SimulatedDevice {
   std::size_t memory_limit = std::numeric_limits<std::size_t>::max();  ///< of device and pinned memory together
   long calls_until_failure = -1;                                       ///< negative: none fails
   bool caller_pins = false;                                            ///< memory of the caller is pinned
+  bool forgets_to_wait = false;                                        ///< a defect: the tests must notice
   long calls = 0;
   std::size_t in_use = 0, most_in_use = 0;
 
@@ -101,7 +102,7 @@ class SimulatedDevice {
   /// Does what was enqueued before the mark, and nothing more.
   bool wait(int slot) {
     const auto [stream, until] = marks_[slot];
-    while (done_[stream] < until) step(stream);
+    while (done_[stream] < until && !forgets_to_wait) step(stream);
     return succeeds();
   }
   void drain(Stream stream) {
