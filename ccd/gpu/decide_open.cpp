@@ -46,11 +46,12 @@ bool copy_rows(void* to, std::size_t width, const void* from, std::size_t from_p
                int threads) noexcept {
   constexpr std::size_t bytes_a_part = 1U << 20;
   const std::size_t parts_a_row = (width + bytes_a_part - 1) / bytes_a_part;
-  return in_parts(rows * parts_a_row, 1, threads, [&](std::size_t i, std::size_t) {
+  const auto copy_part = [&](std::size_t i, std::size_t) {
     const std::size_t row = i / parts_a_row, first = i % parts_a_row * bytes_a_part;
     std::memcpy(static_cast<char*>(to) + row * width + first, static_cast<const char*>(from) + row * from_pitch + first,
                 std::min(bytes_a_part, width - first));
-  });
+  };
+  return in_parts(rows * parts_a_row, 1, threads, std::cref(copy_part));
 }
 
 template <class Real>
@@ -63,7 +64,7 @@ bool decide_open(const Queries<Real>& queries, std::size_t first, std::size_t co
     open = 0;
     return true;
   }
-  const bool decided = in_parts(count, queries_a_part, threads, [&](std::size_t part, std::size_t length) {
+  const auto decide_part = [&](std::size_t part, std::size_t length) {
     std::array<Real, numbers_per_query> copy;
     std::size_t found = 0;
     for (std::size_t i = first + part; i < first + part + length; ++i) {
@@ -72,7 +73,8 @@ bool decide_open(const Queries<Real>& queries, std::size_t first, std::size_t co
       results[i] = ccd::collides(queries.kind, batch::points_of(queries, i, copy), method) ? 1 : 0;
     }
     all += found;
-  });
+  };
+  const bool decided = in_parts(count, queries_a_part, threads, std::cref(decide_part));
   open = all;
   return decided;
 }
