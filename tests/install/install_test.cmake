@@ -49,7 +49,7 @@ endfunction()
 file(GLOB_RECURSE package_files ${prefix}/*.cmake ${prefix}/*.h)
 expect_no_paths("nothing" ${package_files})
 
-foreach(example IN ITEMS first_predicate ccd_query batch)
+foreach(example IN ITEMS first_predicate ccd_query cuda_batch batch)
   file(COPY ${SOURCE}/examples/${example} DESTINATION ${SCRATCH}/projects)  # away from the repository
 endforeach()
 build_and_test(${SCRATCH}/projects/first_predicate ${SCRATCH}/build/first_predicate 2)
