@@ -16,7 +16,7 @@
 
 #include "ccd/gpu/decide_open.h"
 #include "derived.h"
-#include "limits.h"
+#include "device_limits.h"
 #include "tightrope/gpu.h"
 #include "tightrope/plain.h"
 
@@ -357,7 +357,7 @@ int run(const std::string& prepared, std::size_t count, bool small, const std::s
   ccd::gpu::Workspace workspace;
   for (const QuerySet& set : sets) {
     std::vector<double> points = set.points;
-    constexpr std::size_t few = 2000;
+    constexpr std::size_t few = 500;
     if (small && points.size() > 24 * few) points.resize(24 * few);
     compare_all(check_, set.name, set.kind, points, workspace);
   }

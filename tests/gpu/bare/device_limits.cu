@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <functional>
 
-#include "limits.h"
+#include "device_limits.h"
 
 namespace tightrope::gpu_check {
 namespace {
