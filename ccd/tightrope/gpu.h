@@ -55,7 +55,7 @@ using Stream = void*;
 struct Options {
   Method method = Method::tightrope;
   int threads = 1;  ///< of the processor, for exact arithmetic and for copies to pinned memory; 0: as many as it has
-  /// Queries that are on the device at a time, at most; 0: as many as are worth it. Less where memory is short.
+  /// Queries that are on the device at a time, 1024 or more; 0: as many as are worth it. Fewer where memory is short.
   std::size_t chunk = 0;
   /// collides_on_device: leave results[i] = 2 where exact arithmetic would have to decide, and do not wait.
   bool leave_open = false;
