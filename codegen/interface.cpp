@@ -15,14 +15,41 @@ constexpr std::size_t line_length = 120;
 /// Names that generated functions use themselves, so that no argument may have them: the runtime's, the struct's, and
 /// those of the function bodies (v0, v1, ... are recognised apart).
 std::set<std::string> reserved_names(const dsl::Predicate& predicate) {
-  std::set<std::string> names = {
-      "product",     "magnitude",  "minimum",        "maximum",         "max_magnitude",
-      "choose",      "normalizer", "make_uncertain", "certain_nonzero", "certain_nonnegative",
-      "bound",       "Bounded",    "Lanes",          "lanes",           "multiply_add",
-      "square_root", "Sign",       "State",          "state",           "result",
-      "real",        "bounds",     "broken",         "filter",          "finite",
-      "inputs",      "signs",      "uses",           "wanted",          "in_range",
-      "sign",        "tightrope",  "generated"};
+  std::set<std::string> names = {"product",
+                                 "sum",
+                                 "difference",
+                                 "magnitude",
+                                 "minimum",
+                                 "maximum",
+                                 "max_magnitude",
+                                 "choose",
+                                 "normalizer",
+                                 "make_uncertain",
+                                 "certain_nonzero",
+                                 "certain_nonnegative",
+                                 "bound",
+                                 "Bounded",
+                                 "Lanes",
+                                 "lanes",
+                                 "multiply_add",
+                                 "square_root",
+                                 "Sign",
+                                 "State",
+                                 "state",
+                                 "result",
+                                 "real",
+                                 "bounds",
+                                 "broken",
+                                 "filter",
+                                 "finite",
+                                 "inputs",
+                                 "signs",
+                                 "uses",
+                                 "wanted",
+                                 "in_range",
+                                 "sign",
+                                 "tightrope",
+                                 "generated"};
   names.insert(predicate.name);
   for (const dsl::Stage& stage : predicate.stages) {
     names.insert(stage.name);

@@ -70,6 +70,7 @@ class PredicatePrinter {
 
  private:
   void name_nodes();
+  bool is_argument(NodeId id) const;
   std::string expression(NodeId id) const;
   std::string operand(NodeId id) const { return names_[static_cast<std::size_t>(id)]; }
 
@@ -116,19 +117,27 @@ void PredicatePrinter::name_nodes() {
   }
 }
 
+/// A number of the caller's, or its negative: it may be a product that compilers would fuse with a sum.
+bool PredicatePrinter::is_argument(NodeId id) const {
+  if (lanes_ || id == dsl::no_node) return false;  // lanes: highway-inl.h
+  const Node& node = bounded_.graph[id];
+  return node.op == Op::input || (node.op == Op::neg && bounded_.graph[node.a].op == Op::input);
+}
+
 std::string PredicatePrinter::expression(NodeId id) const {
   const Node& node = bounded_.graph[id];
   const std::string a = node.a == dsl::no_node ? "" : operand(node.a);
   const std::string b = node.b == dsl::no_node ? "" : operand(node.b);
+  const bool with_argument = is_argument(node.a) || is_argument(node.b);
   const std::string_view suffix = options_.precision == Precision::binary32 ? "f" : "";
   switch (node.op) {
     case Op::input:
     case Op::constant:
       return operand(id);
     case Op::add:
-      return fmt::format("{} + {}", a, b);
+      return with_argument ? fmt::format("sum({}, {})", a, b) : fmt::format("{} + {}", a, b);
     case Op::sub:
-      return fmt::format("{} - {}", a, b);
+      return with_argument ? fmt::format("difference({}, {})", a, b) : fmt::format("{} - {}", a, b);
     case Op::neg:
       return a[0] == '-' ? fmt::format("-({})", a) : "-" + a;
     case Op::mul:

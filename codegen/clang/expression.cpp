@@ -133,6 +133,8 @@ Op ExpressionReader::operation(const clang::CallExpr* call) const {
     Op op;
   };
   constexpr Callee callees[] = {{"tightrope::product", Op::mul},
+                                {"tightrope::sum", Op::add},
+                                {"tightrope::difference", Op::sub},
                                 {"tightrope::magnitude", Op::abs},
                                 {"tightrope::minimum", Op::min},
                                 {"tightrope::maximum", Op::max},

@@ -65,34 +65,69 @@ TIGHTROPE_FUNCTION constexpr void require_ieee_device() {
 #define TIGHTROPE_FLOAT_REGISTER "+m"
 #endif
 
-/// a * b, rounded on its own: no compiler may contract it with a following addition into an fma. g++ ignores the
+/// x. If it is a product, it is rounded, and no compiler may contract it with an addition into an fma. g++ ignores the
 /// standard pragma and contracts by default; its barrier keeps the rounded product. clang heeds the pragma unless
 /// -ffp-contract=fast overrules it (its back end then fuses whatever it sees), which an empty asm statement prevents;
-/// so does it for code that nvcc passes on to g++ (nvcc does not know the barrier). On the device, an operation with
-/// its rounding spelled out is never fused.
-TIGHTROPE_FUNCTION double product(double a, double b) {
-#if defined(__CUDA_ARCH__)
-  return __dmul_rn(a, b);
-#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && __GNUC__ >= 12
-  return __builtin_assoc_barrier(a * b);
+/// so does it for code that nvcc passes on to g++ (nvcc does not know the barrier). Not for the device.
+template <class Real>
+TIGHTROPE_FUNCTION Real rounded(Real x) {
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && __GNUC__ >= 12
+  return __builtin_assoc_barrier(x);
 #else
-  double p = a * b;
-  asm("" : TIGHTROPE_FLOAT_REGISTER(p));
-  return p;
+#if !defined(__CUDA_ARCH__)
+  asm("" : TIGHTROPE_FLOAT_REGISTER(x));
+#endif
+  return x;
 #endif
 }
 
-/// a * b in single precision; see above.
+/// a * b, rounded on its own. On the device, an operation with its rounding spelled out is never fused.
+TIGHTROPE_FUNCTION double product(double a, double b) {
+#if defined(__CUDA_ARCH__)
+  return __dmul_rn(a, b);
+#else
+  return rounded(a * b);
+#endif
+}
 TIGHTROPE_FUNCTION float product(float a, float b) {
 #if defined(__CUDA_ARCH__)
   require_ieee_device<float>();
   return __fmul_rn(a, b);
-#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && __GNUC__ >= 12
-  return __builtin_assoc_barrier(a * b);
 #else
-  float p = a * b;
-  asm("" : TIGHTROPE_FLOAT_REGISTER(p));
-  return p;
+  return rounded(a * b);
+#endif
+}
+
+/// a + b and a - b, of arguments: the caller may have formed them as products, after inlining they stand beside the
+/// sum.
+TIGHTROPE_FUNCTION double sum(double a, double b) {
+#if defined(__CUDA_ARCH__)
+  return __dadd_rn(a, b);
+#else
+  return rounded(a) + rounded(b);
+#endif
+}
+TIGHTROPE_FUNCTION float sum(float a, float b) {
+#if defined(__CUDA_ARCH__)
+  require_ieee_device<float>();
+  return __fadd_rn(a, b);
+#else
+  return rounded(a) + rounded(b);
+#endif
+}
+TIGHTROPE_FUNCTION double difference(double a, double b) {
+#if defined(__CUDA_ARCH__)
+  return __dsub_rn(a, b);
+#else
+  return rounded(a) - rounded(b);
+#endif
+}
+TIGHTROPE_FUNCTION float difference(float a, float b) {
+#if defined(__CUDA_ARCH__)
+  require_ieee_device<float>();
+  return __fsub_rn(a, b);
+#else
+  return rounded(a) - rounded(b);
 #endif
 }
 

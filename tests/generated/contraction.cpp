@@ -45,11 +45,19 @@ Real shifted_area(const Real* x, Real shift) {
   return result.real.value + shift;
 }
 
+/// Arguments that are products of the caller's: they are rounded before anything is added to them.
+template <class Bound, class Real>
+void evaluate_scaled(const Real* x, Real s, Bounded<Real>* y) {
+  const Real p[] = {s * x[0], s * x[1], s * x[2], s * x[3], s * x[4], s * x[5], s * x[6], s * x[7]};
+  y[0] = generated::incircle<Bound, Real>::evaluate(p, p + 2, p + 4, p + 6).side;
+}
+
 #define INSTANTIATE(BOUND, REAL)                                                                  \
   template void evaluate_stages<bound::BOUND, REAL>(const REAL*, Bounded<REAL>*);                 \
   template void evaluate_incircle<bound::BOUND, REAL>(const REAL*, Bounded<REAL>*);               \
   template void evaluate_bounded<bound::BOUND, REAL>(const Bounded<REAL>*, REAL, Bounded<REAL>*); \
-  template REAL shifted_area<bound::BOUND, REAL>(const REAL*, REAL);
+  template REAL shifted_area<bound::BOUND, REAL>(const REAL*, REAL);                              \
+  template void evaluate_scaled<bound::BOUND, REAL>(const REAL*, REAL, Bounded<REAL>*);
 
 INSTANTIATE(none, double)
 INSTANTIATE(safe, double)

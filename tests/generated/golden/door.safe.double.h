@@ -94,7 +94,7 @@ struct door<bound::safe, double> {
     const double v6 = max_magnitude(v4, v5);
     state.v6 = v6;
     const double v7 = max_magnitude(v6, 0x1p-320);
-    const double v8 = p[2] - a[2];
+    const double v8 = difference(p[2], a[2]);
     const double v9 = magnitude(v8);
     state.v9 = v9;
     const double v10 = max_magnitude(v9, 0x1p-320);
@@ -109,7 +109,7 @@ struct door<bound::safe, double> {
     state.v18 = v18;
     const double v19 = max_magnitude(v18, 0x1p-320);
     const double v20 = product(v11, v19);
-    const double v21 = p[1] - a[1];
+    const double v21 = difference(p[1], a[1]);
     const double v22 = magnitude(v21);
     state.v22 = v22;
     const double v23 = max_magnitude(v22, 0x1p-320);
@@ -125,7 +125,7 @@ struct door<bound::safe, double> {
     const double v32 = max_magnitude(v31, 0x1p-320);
     const double v33 = product(v24, v32);
     const double v34 = v20 + v33;
-    const double v35 = p[0] - a[0];
+    const double v35 = difference(p[0], a[0]);
     const double v36 = magnitude(v35);
     state.v36 = v36;
     const double v37 = max_magnitude(v36, 0x1p-320);
@@ -237,7 +237,7 @@ struct door<bound::safe, double> {
     const double v31 = state.v31;
     const double v105 = product(v31, v104);
     const double v106 = magnitude(k.value);
-    const double v107 = k.bound + v106;
+    const double v107 = sum(k.bound, v106);
     const double v108 = product(v107, v105);
     const double v109 = product(v108, 0x1.800018p+2);
     const double v9 = state.v9;

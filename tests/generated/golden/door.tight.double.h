@@ -101,7 +101,7 @@ struct door<bound::tight, double> {
     const double v7 = v4 + v6;
     const double v8 = v7 + 0x1.0000000000001p-1018;
     state.v8 = v8;
-    const double v9 = p[0] - a[0];
+    const double v9 = difference(p[0], a[0]);
     const double v10 = magnitude(v9);
     const double v11 = product(v8, v10);
     const double v12 = product(u_t0[0], v_t0[1]);
@@ -115,7 +115,7 @@ struct door<bound::tight, double> {
     const double v19 = v16 + v18;
     const double v20 = 0x1.0000000000001p-1018 + v19;
     state.v20 = v20;
-    const double v21 = p[2] - a[2];
+    const double v21 = difference(p[2], a[2]);
     const double v22 = magnitude(v21);
     const double v23 = product(v20, v22);
     const double v24 = v11 + v23;
@@ -130,7 +130,7 @@ struct door<bound::tight, double> {
     const double v32 = v29 + v31;
     const double v33 = 0x1.0000000000001p-1018 + v32;
     state.v33 = v33;
-    const double v34 = p[1] - a[1];
+    const double v34 = difference(p[1], a[1]);
     const double v35 = magnitude(v34);
     const double v36 = product(v33, v35);
     const double v37 = v36 + v24;

@@ -39,7 +39,9 @@ struct Spelling {
 
 TEST(PrintCpp, SpellsOperations) {
   const Spelling table[] = {
-      {"scalar a, b) { sign a + b as y }", "const double v0 = a + b;\n    result.y = {v0, 0x0p+0};"},
+      {"scalar a, b) { sign a + b as y }", "const double v0 = sum(a, b);\n    result.y = {v0, 0x0p+0};"},
+      {"scalar a, b) { sign a - b as y }", "const double v0 = difference(a, b);"},
+      {"scalar a, b) { sign a * b + a * a as y }", "const double v2 = v0 + v1;"},
       {"scalar a, b) { sign a * b as y }", "const double v0 = product(a, b);"},
       {"scalar a) { sign 8 * a as y }", "const double v0 = product(a, 0x1p+3);"},
       {"scalar a) { sign abs(a) as y }", "const double v0 = magnitude(a);"},

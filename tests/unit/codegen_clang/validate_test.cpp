@@ -80,7 +80,8 @@ TEST(Validate, CatchesEveryKindOfChange) {
   const Generated generated(two_stages, BoundMode::none);
   ASSERT_EQ(generated.verdict(generated.text()), "");
   const Change table[] = {
-      {"operands swapped in a subtraction", R"(= p_t0\[0\] - a\[0\];)", "= a[0] - p_t0[0];", "no operation of the an"},
+      {"operands swapped in a subtraction", R"(= difference\(p_t0\[0\], a\[0\]\);)", "= difference(a[0], p_t0[0]);",
+       "no operation of the an"},
       {"a term dropped", R"((const double v\d+ = v\d+) \+ v\d+;)", "$1;", "never|no operation|the value in"},
       {"a literal changed in its last bit", "0x1.8p\\+1", "0x1.8000000000001p+1", "no operation of the analysed graph"},
       {"a literal that no double holds", "0x1.8p\\+1", "0x1.80000000000001p+1", "does not hold exactly"},
@@ -104,9 +105,9 @@ TEST(Validate, CatchesEveryKindOfChange) {
       {"a narrower local", R"(const double v3)", "const float v3", "is of type"},
       {"a static local", R"(const double v3)", "static const double v3", "no part of the analysed graph"},
       {"a local that is a reference", R"(const double v3)", "const double& v3", "is of type"},
-      {"another input", R"(p_t0\[0\] - a)", "p_t1[0] - a", "no operation of the analysed graph"},
-      {"another component", R"(p_t0\[0\] - a)", "p_t0[1] - a", "no operation of the analysed graph"},
-      {"a component beyond the end", R"(p_t0\[0\] - a)", "p_t0[3] - a", "beyond the end"},
+      {"another input", R"(p_t0\[0\], a)", "p_t1[0], a", "no operation of the analysed graph"},
+      {"another component", R"(p_t0\[0\], a)", "p_t0[1], a", "no operation of the analysed graph"},
+      {"a component beyond the end", R"(p_t0\[0\], a)", "p_t0[3], a", "beyond the end"},
       {"a bound in place of a value", R"(minimum\(k\.value)", "minimum(k.bound", "no operation of the analysed graph"},
       {"State set twice", R"((state\.v\d+ = \w+;))", "$1 $1", "sets a member of State twice"},
       {"State read before it is set", R"(state\.v\d+ = \w+;)", "", "read before it is set"},
@@ -167,12 +168,12 @@ TEST(Validate, CatchesTwoMembersOfStateSwapped) {
 
 TEST(Validate, NamesTheLine) {
   const Generated generated("predicate f(scalar a, b) { sign a - b as y }", BoundMode::none);
-  const std::string tampered = changed(generated.text(), "a - b;", "b - a;");
-  const auto place = tampered.find("b - a;");
+  const std::string tampered = changed(generated.text(), R"(difference\(a, b\);)", "difference(b, a);");
+  const auto place = tampered.find("difference(b, a);");
   const auto line = 1 + std::count(tampered.begin(), tampered.begin() + static_cast<std::ptrdiff_t>(place), '\n');
-  EXPECT_EQ(
-      generated.verdict(tampered),
-      "test.h:" + std::to_string(line) + ": `v0 = b - a` is no operation of the analysed graph: sub(input 1, input 0)");
+  EXPECT_EQ(generated.verdict(tampered),
+            "test.h:" + std::to_string(line) +
+                ": `v0 = difference(b, a)` is no operation of the analysed graph: sub(input 1, input 0)");
 }
 
 /// The proof is about arithmetic, not about text: other names, another order of independent lines, parentheses.
