@@ -44,7 +44,7 @@ struct Tile {
  private:
   template <std::size_t... C>
   HWY_INLINE Tile(const Real* numbers, std::size_t pitch, std::index_sequence<C...>)
-      : x{hn::LoadU(typename Lanes<Real>::Tag(), numbers + C * pitch)...} {}
+      : x{Lanes<Real>::load(numbers + C * pitch)...} {}
 };
 
 /// A point that moves, in registers: names of points differ from lane to lane.

@@ -36,71 +36,78 @@ struct Lanes {
   using Vector = hn::Vec<Tag>;
 
   Lanes() = default;
-  HWY_INLINE Lanes(Vector vector) : v(vector) {}
+  /// From outside: a product is rounded before it comes in, else the compiler would fuse it with the first difference.
+  HWY_INLINE Lanes(Vector vector) : v(rounded(vector)) {}
   HWY_INLINE Lanes(Real x) : v(hn::Set(Tag(), x)) {}
+  /// From memory, of any alignment.
+  HWY_INLINE static Lanes load(const Real* numbers) { return Lanes(hn::LoadU(Tag(), numbers), Known()); }
 
-  friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
-  friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
-  friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
-  friend HWY_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.v); }
+  friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return {hn::Add(a.v, b.v), Known()}; }
+  friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return {hn::Sub(a.v, b.v), Known()}; }
+  friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return {hn::Div(a.v, b.v), Known()}; }
+  friend HWY_INLINE Lanes operator-(Lanes a) { return {hn::Neg(a.v), Known()}; }
 
-  friend HWY_INLINE Lanes product(Lanes a, Lanes b) {
-    Vector p = hn::Mul(a.v, b.v);
-#if HWY_ARCH_X86 && (HWY_COMPILER_GCC || HWY_COMPILER_CLANG)
-    asm("" : "+v"(p.raw));
-#elif HWY_ARCH_ARM && (HWY_COMPILER_GCC || HWY_COMPILER_CLANG)
-    asm("" : "+w"(p.raw));
-#endif
-    return p;
-  }
-  friend HWY_INLINE Lanes magnitude(Lanes a) { return hn::Abs(a.v); }
-  friend HWY_INLINE Lanes square_root(Lanes a) { return hn::Sqrt(a.v); }
+  friend HWY_INLINE Lanes product(Lanes a, Lanes b) { return {rounded(hn::Mul(a.v, b.v)), Known()}; }
+  friend HWY_INLINE Lanes magnitude(Lanes a) { return {hn::Abs(a.v), Known()}; }
+  friend HWY_INLINE Lanes square_root(Lanes a) { return {hn::Sqrt(a.v), Known()}; }
 
   /// b > a ? b : a. On x86 that is the instruction: it gives its second operand where either is NaN.
   friend HWY_INLINE Lanes max_magnitude(Lanes a, Lanes b) {
 #if HWY_ARCH_X86
-    return hn::Max(b.v, a.v);
+    return {hn::Max(b.v, a.v), Known()};
 #else
-    return hn::IfThenElse(hn::Gt(b.v, a.v), b.v, a.v);
+    return {hn::IfThenElse(hn::Gt(b.v, a.v), b.v, a.v), Known()};
 #endif
   }
   friend HWY_INLINE Lanes minimum(Lanes a, Lanes b) {
-    return hn::IfThenElse(hn::Lt(a.v, b.v), a.v, hn::IfThenElse(hn::Le(b.v, a.v), b.v, hn::Add(a.v, b.v)));
+    return {hn::IfThenElse(hn::Lt(a.v, b.v), a.v, hn::IfThenElse(hn::Le(b.v, a.v), b.v, hn::Add(a.v, b.v))), Known()};
   }
   friend HWY_INLINE Lanes maximum(Lanes a, Lanes b) {
-    return hn::IfThenElse(hn::Gt(a.v, b.v), a.v, hn::IfThenElse(hn::Ge(b.v, a.v), b.v, hn::Add(a.v, b.v)));
+    return {hn::IfThenElse(hn::Gt(a.v, b.v), a.v, hn::IfThenElse(hn::Ge(b.v, a.v), b.v, hn::Add(a.v, b.v))), Known()};
   }
   friend HWY_INLINE Lanes certain_nonzero(Lanes a, Lanes bound) {
-    return hn::IfThenElse(hn::Gt(hn::Abs(a.v), bound.v), a.v, not_a_number().v);
+    return {hn::IfThenElse(hn::Gt(hn::Abs(a.v), bound.v), a.v, not_a_number().v), Known()};
   }
   friend HWY_INLINE Lanes certain_nonnegative(Lanes a, Lanes bound) {
-    return hn::IfThenElse(hn::Ge(a.v, bound.v), a.v, not_a_number().v);
+    return {hn::IfThenElse(hn::Ge(a.v, bound.v), a.v, not_a_number().v), Known()};
   }
   friend HWY_INLINE Lanes choose(Lanes condition, Lanes first, Lanes second) {
-    return hn::IfThenElse(hn::Ge(condition.v, hn::Zero(Tag())), first.v, second.v);
+    return {hn::IfThenElse(hn::Ge(condition.v, hn::Zero(Tag())), first.v, second.v), Known()};
   }
   friend HWY_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
 #if HWY_NATIVE_FMA
-    return hn::MulAdd(a.v, b.v, c.v);
+    return {hn::MulAdd(a.v, b.v, c.v), Known()};
 #else  // the same numbers, slowly
     HWY_ALIGN Real x[hn::MaxLanes(Tag())], y[hn::MaxLanes(Tag())], z[hn::MaxLanes(Tag())];
     hn::Store(a.v, Tag(), x);
     hn::Store(b.v, Tag(), y);
     hn::Store(c.v, Tag(), z);
     for (std::size_t i = 0; i < hn::MaxLanes(Tag()); ++i) z[i] = tightrope::multiply_add(x[i], y[i], z[i]);
-    return hn::Load(Tag(), z);
+    return {hn::Load(Tag(), z), Known()};
 #endif
   }
   friend HWY_INLINE Lanes normalizer(Lanes largest) {
     HWY_ALIGN Real x[hn::MaxLanes(Tag())];
     hn::Store(largest.v, Tag(), x);
     for (Real& lane : x) lane = tightrope::normalizer(lane);
-    return hn::Load(Tag(), x);
+    return {hn::Load(Tag(), x), Known()};
   }
 
   Vector v;
 
  private:
+  /// What is no product of the caller's.
+  struct Known {};
+  HWY_INLINE Lanes(Vector vector, Known) : v(vector) {}
+
+  HWY_INLINE static Vector rounded(Vector x) {
+#if HWY_ARCH_X86 && (HWY_COMPILER_GCC || HWY_COMPILER_CLANG)
+    asm("" : "+v"(x.raw));
+#elif HWY_ARCH_ARM && (HWY_COMPILER_GCC || HWY_COMPILER_CLANG)
+    asm("" : "+w"(x.raw));
+#endif
+    return x;
+  }
   HWY_INLINE static Lanes not_a_number() { return static_cast<Real>(__builtin_nan("")); }
 };
 

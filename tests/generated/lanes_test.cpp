@@ -136,6 +136,26 @@ void compare_stages(std::mt19937_64& random) {
   }
 }
 
+/// Arguments that are products: each is rounded before the predicate begins, although this file is compiled with
+/// contraction.
+void compare_products(std::mt19937_64& random) {
+  const auto factors = random_inputs<16>(random);
+  const auto x = in_lanes(factors);
+  std::array<Lanes<double>, 8> products;
+  for (std::size_t i = 0; i < products.size(); ++i) products[i] = hn::Mul(x[2 * i].v, x[2 * i + 1].v);
+  const auto side = incircle<tight, double>::evaluate(&products[0], &products[2], &products[4], &products[6]);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const auto y = of_lane(factors, lane);
+    std::array<double, 8> rounded;
+    for (std::size_t i = 0; i < rounded.size(); ++i) {
+      const volatile double product = y[2 * i] * y[2 * i + 1];
+      rounded[i] = product;
+    }
+    expect_same(side, generated::incircle<tight, double>::evaluate(&rounded[0], &rounded[2], &rounded[4], &rounded[6]),
+                lane);
+  }
+}
+
 }  // namespace
 
 void compare_generated() {
@@ -144,6 +164,7 @@ void compare_generated() {
     compare_quotients(random);
     compare_bounded_inputs(random);
     compare_stages(random);
+    compare_products(random);
   }
 }
 
