@@ -23,7 +23,10 @@ std::string why_unusable(Device device) {
     case Device::gpu: {
       const gpu::DeviceCount devices = gpu::device_count();
       if (devices.result.status == gpu::Status::built_without_cuda) return "no GPU support in this build";
-      return devices.result ? std::string{} : std::string("no GPU here: ") + devices.result.text;
+      if (!devices.result) return std::string("no GPU here: ") + devices.result.text;
+      gpu::Workspace workspace;  // is there code for this GPU, and does its driver take it?
+      const gpu::Result usable = gpu::collides(Queries<double>{}, nullptr, workspace);
+      return usable ? std::string{} : std::string("this GPU cannot be used: ") + usable.text;
     }
   }
   return {};

@@ -107,15 +107,27 @@ bool CudaBackend::is_pinned(const void* memory) {
   return succeeded(cudaPointerGetAttributes(&attributes, memory)) && attributes.type == cudaMemoryTypeHost;
 }
 
+bool CudaBackend::copy(Stream stream, void* to, std::size_t to_pitch, const void* from, std::size_t from_pitch,
+                       std::size_t width, std::size_t rows, cudaMemcpyKind direction) {
+  constexpr std::size_t most_pitch = 0x7fffffff;  // of CUDA's copies in two dimensions (cudaDevAttrMaxPitch)
+  if (rows > 1 && to_pitch <= most_pitch && from_pitch <= most_pitch) {
+    return succeeded(cudaMemcpy2DAsync(to, to_pitch, from, from_pitch, width, rows, direction, stream));
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (!succeeded(cudaMemcpyAsync(static_cast<char*>(to) + row * to_pitch,
+                                   static_cast<const char*>(from) + row * from_pitch, width, direction, stream))) {
+      return false;
+    }
+  }
+  return true;
+}
 bool CudaBackend::upload(Stream stream, void* to, std::size_t to_pitch, const void* from, std::size_t from_pitch,
                          std::size_t width, std::size_t rows) {
-  if (rows == 1) return succeeded(cudaMemcpyAsync(to, from, width, cudaMemcpyHostToDevice, stream));
-  return succeeded(cudaMemcpy2DAsync(to, to_pitch, from, from_pitch, width, rows, cudaMemcpyHostToDevice, stream));
+  return copy(stream, to, to_pitch, from, from_pitch, width, rows, cudaMemcpyHostToDevice);
 }
 bool CudaBackend::download(Stream stream, void* to, std::size_t to_pitch, const void* from, std::size_t from_pitch,
                            std::size_t width, std::size_t rows) {
-  if (rows == 1) return succeeded(cudaMemcpyAsync(to, from, width, cudaMemcpyDeviceToHost, stream));
-  return succeeded(cudaMemcpy2DAsync(to, to_pitch, from, from_pitch, width, rows, cudaMemcpyDeviceToHost, stream));
+  return copy(stream, to, to_pitch, from, from_pitch, width, rows, cudaMemcpyDeviceToHost);
 }
 
 template <class Real>
@@ -162,6 +174,7 @@ bool CudaBackend::scatter(Stream stream, const Chunk<Real>& chunk, std::size_t f
 
 bool CudaBackend::mark(int slot, Stream stream) { return succeeded(cudaEventRecord(marks_[slot], stream)); }
 bool CudaBackend::wait(int slot) { return succeeded(cudaEventSynchronize(marks_[slot])); }
+bool CudaBackend::follow(Stream stream, int slot) { return succeeded(cudaStreamWaitEvent(stream, marks_[slot], 0)); }
 void CudaBackend::drain(Stream stream) { cudaStreamSynchronize(stream); }
 
 template bool CudaBackend::run(Stream, Method, Kind, const Chunk<double>&);

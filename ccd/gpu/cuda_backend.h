@@ -59,12 +59,15 @@ class CudaBackend {
                const unsigned char* answers);
   bool mark(int slot, Stream stream);
   bool wait(int slot);
+  bool follow(Stream stream, int slot);
   void drain(Stream stream);
   Result error() const { return result_of(error_); }
 
  private:
   /// Keeps an error for `error`, and clears it where CUDA keeps it.
   bool succeeded(cudaError_t error);
+  bool copy(Stream stream, void* to, std::size_t to_pitch, const void* from, std::size_t from_pitch, std::size_t width,
+            std::size_t rows, cudaMemcpyKind direction);
 
   int device_;
   int blocks_ = 0;  ///< that run at a time

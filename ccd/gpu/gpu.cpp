@@ -78,7 +78,8 @@ std::optional<Device> device(int number) noexcept {
 Workspace::Workspace(int device) noexcept : state_(new (std::nothrow) State(device)) {}
 Workspace::Workspace(Workspace&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
 Workspace& Workspace::operator=(Workspace&& other) noexcept {
-  std::swap(state_, other.state_);
+  Workspace taken(std::move(other));
+  std::swap(state_, taken.state_);
   return *this;
 }
 Workspace::~Workspace() { delete state_; }

@@ -14,6 +14,7 @@
 ///   bool gather(stream, chunk, first, count, Real* to)           the numbers of open queries first .., 24 together
 ///   bool scatter(stream, chunk, first, count, const unsigned char* answers)      answers of open queries first ..
 ///   bool mark(slot, stream), bool wait(slot)        waits for what was enqueued before the slot's last mark
+///   bool follow(stream, slot)                       the same wait, by what is enqueued later in the stream
 ///   void drain(stream)                              waits for all, whatever happened
 ///   Result error()                                  of the call that gave `false`
 /// Each stream works in the order in which it was given work, beside the processor.
@@ -64,6 +65,7 @@ class Pipeline {
                                               [&](std::size_t size) { return reserve(call, size); });
     if (chunk == 0) return no_memory();
     report.chunk = chunk;
+    if (!backend_.wait(last_mark)) return backend_.error();
     Result result = in_turns(
         queries.count, chunk, [&](Slot<Backend>& slot) { return enqueue(call, slot); },
         [&](Slot<Backend>& slot) { return finish(call, slot, report); });
@@ -89,15 +91,22 @@ class Pipeline {
         });
     if (chunk == 0) return no_memory();
     report.chunk = chunk;
+    if (!backend_.follow(stream, last_mark)) return backend_.error();
     Result result = in_turns(
         queries.count, chunk, [&](Slot<Backend>& slot) { return enqueue(call, slot); },
         [&](Slot<Backend>& slot) { return finish(call, slot, report); });
-    if (comes_back && result && !(backend_.mark(0, stream) && backend_.wait(0))) result = backend_.error();
+    if (result && !(backend_.mark(last_mark, stream) && (!comes_back || backend_.wait(last_mark)))) {
+      result = backend_.error();
+    }
     if (!result) backend_.drain(stream);
     return result;
   }
 
  private:
+  /// The slot whose mark is the end of a call that returned before its work was done: the next one follows it, for it
+  /// writes to the same lists, perhaps in another stream.
+  static constexpr int last_mark = 0;
+
   template <class Real>
   struct HostCall {
     const Queries<Real>& queries;

@@ -100,7 +100,7 @@ Result collides(const Queries<Real>& queries, unsigned char* results, Workspace&
 
 /// The same for queries and results in the memory of the workspace's device, in the order of `stream`. Returns when the
 /// work is enqueued; but with `tightrope` and `bsc_exact`, unless leave_open is set, when it is done. The workspace
-/// must stay until then, and is used by one stream at a time.
+/// must stay until then. On the device a call begins when the workspace's one before is done, whatever their streams.
 template <class Real>
 Result collides_on_device(const Queries<Real>& queries, unsigned char* results, Workspace& workspace, Stream stream,
                           const Options& options = {}, Report* report = nullptr) noexcept;

@@ -14,7 +14,7 @@
 namespace tightrope::ccd::gpu {
 namespace {
 
-constexpr int callers_stream = 2;
+constexpr int callers_stream = 2, callers_other_stream = 3;
 
 template <class Real>
 const Sample<Real>& sample(Kind kind) {
@@ -98,6 +98,36 @@ TEST(Pipeline, AForgottenWaitIsNoticed) {
   }
   EXPECT_FALSE(device.idle());
   EXPECT_NE(results, expected);
+}
+
+/// Calls that return with their work enqueued, each followed by one in other streams: are all answers right?
+bool are_right_beside_each_other(bool forgets_to_follow) {
+  const Sample<double>& all = sample<double>(Kind::vertex_face);
+  const Queries<double> queries = all.queries(Layout::by_query);
+  SimulatedDevice device;
+  device.interleaves = true;
+  device.forgets_to_follow = forgets_to_follow;
+  Pipeline<SimulatedDevice> pipeline(device);
+  Report report;
+  std::vector<unsigned char> early(all.count()), late(all.count()), host(all.count());
+  const auto enqueue_early = [&] {
+    const Options options{.method = Method::tight, .chunk = 1024};
+    EXPECT_TRUE(pipeline.on_device(queries, early.data(), callers_stream, options, report));
+    EXPECT_FALSE(device.idle());
+  };
+  enqueue_early();
+  EXPECT_TRUE(pipeline.on_device(queries, late.data(), callers_other_stream, {.chunk = 1024}, report));
+  enqueue_early();
+  EXPECT_TRUE(pipeline.from_host(queries, host.data(), {.chunk = 1024}, report));
+  device.drain(callers_stream);
+  EXPECT_TRUE(device.idle());
+  return device.conflicts == 0 && early == all.answers(Method::tight) && late == all.answers(Method::tightrope) &&
+         host == all.answers(Method::tightrope);
+}
+
+TEST(Pipeline, CallsInDifferentStreamsFollowEachOther) {
+  EXPECT_TRUE(are_right_beside_each_other(false));
+  EXPECT_FALSE(are_right_beside_each_other(true));  // a defect: they write to one another's lists
 }
 
 TEST(Pipeline, OpenQueriesAreLeftOnRequest) {

@@ -3,10 +3,12 @@
 /// demand. What is wrong with the order of transfers, kernels and reuse of memory shows here as on a device that is
 /// slow.
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -17,13 +19,16 @@ namespace tightrope::ccd::gpu {
 
 class SimulatedDevice {
  public:
-  using Stream = int;  ///< 0, 1: its own; 2: a caller's
+  using Stream = int;  ///< 0, 1: its own; 2, 3: callers'
 
   std::size_t memory_limit = std::numeric_limits<std::size_t>::max();  ///< of device and pinned memory together
   long calls_until_failure = -1;                                       ///< negative: none fails
   bool caller_pins = false;                                            ///< memory of the caller is pinned
-  bool forgets_to_wait = false;                                        ///< a defect: the tests must notice
+  bool forgets_to_wait = false;                                        ///< defects: the tests must notice
+  bool forgets_to_follow = false;
+  bool interleaves = false;  ///< streams take turns, as far as they do not wait for each other
   long calls = 0;
+  long conflicts = 0;  ///< a stream began to use counters and lists before another had done with them
   std::size_t in_use = 0, most_in_use = 0;
 
   SimulatedDevice() = default;
@@ -33,7 +38,9 @@ class SimulatedDevice {
     for (auto& [memory, bytes] : blocks_) std::free(memory);
   }
   std::size_t blocks() const { return blocks_.size(); }
-  bool idle() const { return work_[0].empty() && work_[1].empty() && work_[2].empty(); }
+  bool idle() const {
+    return std::all_of(std::begin(work_), std::end(work_), [](const auto& work) { return work.empty(); });
+  }
 
   Stream stream(int slot) const { return slot; }
   void* device_memory(std::size_t bytes) { return allocate(bytes); }
@@ -57,7 +64,9 @@ class SimulatedDevice {
 
   template <class Real>
   bool run(Stream stream, Method method, Kind kind, const Chunk<Real>& chunk) {
-    return enqueue(stream, [=] {
+    if (!enqueue(stream, [=, this] { user_[chunk.counters] = stream; })) return false;
+    work_[stream].emplace_back([=, this] {
+      if (user_[chunk.counters] != stream) ++conflicts;
       *chunk.counters = {};
       switch (method) {
         case Method::bsc_float:
@@ -75,6 +84,7 @@ class SimulatedDevice {
           return run_on_host<Method::tightrope>(kind, chunk);
       }
     });
+    return true;
   }
   template <class Real>
   bool gather(Stream stream, const Chunk<Real>& chunk, std::size_t first, std::size_t count, Real* to) {
@@ -105,6 +115,11 @@ class SimulatedDevice {
     while (done_[stream] < until && !forgets_to_wait) step(stream);
     return succeeds();
   }
+  bool follow(Stream stream, int slot) {
+    return enqueue(stream, [this, mark = marks_[slot]] {
+      while (done_[mark.stream] < mark.until && !forgets_to_follow) step(mark.stream);
+    });
+  }
   void drain(Stream stream) {
     while (!work_[stream].empty()) step(stream);
   }
@@ -123,9 +138,15 @@ class SimulatedDevice {
     return true;
   }
   void step(Stream stream) {
-    work_[stream].front()();
+    const std::function<void()> work = std::move(work_[stream].front());
     work_[stream].pop_front();
+    busy_[stream] = true;
+    work();
     ++done_[stream];
+    for (Stream other = 0; other < streams && interleaves; ++other) {
+      if (!busy_[other] && !work_[other].empty()) step(other);
+    }
+    busy_[stream] = false;
   }
 
   void* allocate(std::size_t bytes) {
@@ -145,9 +166,12 @@ class SimulatedDevice {
     std::free(memory);
   }
 
-  std::deque<std::function<void()>> work_[3];
-  std::size_t done_[3] = {};
+  static constexpr int streams = 4;
+  std::deque<std::function<void()>> work_[streams];
+  std::size_t done_[streams] = {};
+  bool busy_[streams] = {};  ///< what is under way there waits for something, or has just been done
   Mark marks_[2];
+  std::map<const Counters*, Stream> user_;
   std::map<void*, std::size_t> blocks_;
 };
 
