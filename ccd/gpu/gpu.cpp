@@ -58,7 +58,12 @@ DeviceCount device_count() noexcept {
   const cudaError_t error = cudaGetDeviceCount(&count);
   if (error == cudaSuccess && count > 0) return {count, {}};
   cudaGetLastError();
-  return {0, {Status::no_device, error == cudaSuccess ? "there is no device" : cudaGetErrorString(error)}};
+  if (error == cudaSuccess) return {0, {Status::no_device, "there is no device"}};
+  int driver = 0;  // CUDA calls a driver that is not there too old
+  if (cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0) {
+    return {0, {Status::no_device, "there is no driver of NVIDIA"}};
+  }
+  return {0, {Status::no_device, cudaGetErrorString(error)}};
 }
 
 std::optional<Device> device(int number) noexcept {

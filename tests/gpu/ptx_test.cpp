@@ -126,7 +126,7 @@ TEST(Ptx, AWrongInstructionIsNoticed) {
   Memory<double> expected(queries), found(queries);
   run_on_host(Method::tightrope, sample.kind, expected.chunk);
   ptx::forgets_magnitudes = true;
-  run_kernels(Method::tightrope, sample.kind, found.chunk);
+  EXPECT_TRUE(run_kernels(Method::tightrope, sample.kind, found.chunk));
   ptx::forgets_magnitudes = false;
   EXPECT_FALSE(std::equal(std::begin(found.counters.left), std::end(found.counters.left), expected.counters.left));
   EXPECT_NE(found.results, expected.results);
