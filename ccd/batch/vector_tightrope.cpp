@@ -13,9 +13,9 @@
 #include <hwy/highway.h>
 
 #if TIGHTROPE_HAS_VECTORS
-HWY_BEFORE_NAMESPACE();
 #include <tightrope/highway-inl.h>
 
+HWY_BEFORE_NAMESPACE();
 #include "edge_edge.tight.double.simd.h"
 #include "separating_plane.safe.double.simd.h"
 #include "separating_plane.safe.float.simd.h"

@@ -51,10 +51,9 @@ bool same(Real a, Real b) {
 #endif
 }  // namespace tightrope::test
 
-HWY_BEFORE_NAMESPACE();
-#if HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
 #include "tightrope/highway-inl.h"
 
+HWY_BEFORE_NAMESPACE();
 namespace tightrope::TIGHTROPE_LANES {
 namespace {
 
@@ -112,11 +111,6 @@ void compare_lanes() {
 }
 
 }  // namespace tightrope::TIGHTROPE_LANES
-#else
-namespace tightrope::lanes::HWY_NAMESPACE {
-void compare_lanes() {}
-}  // namespace tightrope::lanes::HWY_NAMESPACE
-#endif
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
