@@ -95,6 +95,18 @@ TEST(BatchLimits, LargeCoordinatesAreLeftToTheFunctionForOneQuery) {
   }
 }
 
+TEST(BatchLimits, BoundsAreThoseOfTheSameNamesOfPoints) {
+  std::mt19937_64 random(20);
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    std::vector<float> points;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto query = departing(kind, random);
+      points.insert(points.end(), query.begin(), query.end());
+    }
+    expect_same(kind, points);
+  }
+}
+
 TEST(BatchLimits, PointsCloseTogetherAreLeftToTheFunctionForOneQuery) {
   std::mt19937_64 random(22);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
