@@ -1,5 +1,6 @@
 /// Batches on every instruction set against single queries, on as many queries as wanted: all methods, both kinds,
-/// double and float, all layouts in turn. Run: batch_campaign [queries of each kind and type, 2,500,000 if not given: 10^7 in all].
+/// double and float, all layouts in turn. Run: batch_campaign [queries of each kind and type, 2,500,000 if not given:
+/// 10^7 in all].
 ///
 /// A tenth of the queries are cloth-fold's and every other scene's, the rest are those again with axes permuted and
 /// mirrored, scaled by powers of two, and every coordinate moved by a few units in the last place.
