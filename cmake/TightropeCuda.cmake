@@ -2,7 +2,8 @@
 # and enables the language CUDA if so.
 #
 # CMAKE_CUDA_ARCHITECTURES is as CMake has it. Its default here: the GPU of this machine, if there is one, and the oldest
-# virtual architecture that nvcc knows, which the driver compiles for every other one.
+# virtual architecture from 75 on that nvcc knows, which the driver compiles for every later one. (nvcc 12 knows older
+# ones and warns of them; nothing here is tested on those.)
 set(TIGHTROPE_CUDA AUTO CACHE STRING "Code for GPUs: AUTO (where nvcc is found), ON or OFF")
 set_property(CACHE TIGHTROPE_CUDA PROPERTY STRINGS AUTO ON OFF)
 set(TIGHTROPE_HAS_CUDA OFF)
@@ -41,7 +42,7 @@ endif()
 set(TIGHTROPE_HAS_CUDA ON)
 if(NOT architectures_are_given)
   execute_process(COMMAND ${CMAKE_CUDA_COMPILER} --list-gpu-arch OUTPUT_VARIABLE known ERROR_QUIET)
-  if(known MATCHES "compute_([0-9]+)")
+  if(known MATCHES "compute_(7[5-9]|[89][0-9]|1[0-9][0-9])")
     set(CMAKE_CUDA_ARCHITECTURES ${CMAKE_CUDA_ARCHITECTURES_NATIVE} ${CMAKE_MATCH_1}-virtual
       CACHE STRING "The GPUs to make code for" FORCE)
   endif()

@@ -47,7 +47,8 @@ class BatchPrinter {
 
   std::string kernel() const {
     return fmt::format(
-        "\n__global__ void __launch_bounds__(threads_per_block) {}(const __grid_constant__ Batch<generated::{}> batch, "
+        "\n__global__ void __launch_bounds__(threads_per_block) {}(const TIGHTROPE_GRID_CONSTANT Batch<generated::{}> "
+        "batch, "
         "const std::size_t count) {{\n  const std::size_t call = call_of_thread();\n  if (call < count) "
         "batch.evaluate(call);\n}}\n",
         kernel_, instance_);

@@ -87,6 +87,13 @@ TIGHTROPE_FUNCTION void store(const Element (&elements)[N], const OutputArray<Re
   for (std::size_t k = 0; k < N; ++k) store(elements[k], output, call, place + k * each);
 }
 
+/// A parameter that kernels read where it is, without a copy of their own. GPUs before 7.0 have no such thing.
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ < 700
+#define TIGHTROPE_GRID_CONSTANT
+#else
+#define TIGHTROPE_GRID_CONSTANT __grid_constant__
+#endif
+
 #if defined(__CUDACC__)
 inline constexpr unsigned threads_per_block = 128;  // up to 255 registers of 64K a thread, on every architecture
 

@@ -5,9 +5,10 @@
             [--must-find TEXT] [--folder FOLDER] [--without PREFIX] [FILE.cu ..]
 
 All files (of FOLDER, but those whose names start with PREFIX) are compiled together, to PTX for the first architecture
-and from that to machine code for the last one; with `all`, to both for every architecture that nvcc knows. In PTX every instruction on numbers must be on the list below: no fused multiply-add (with --fma: there must
-be some), no product that could still be fused, nothing approximate, nothing that flushes subnormal numbers. In machine
-code there must be none either, but in kernels that divide or take roots, where it is how that is done.
+and from that to machine code for the last one; with `all`, to both for every architecture from 75 on that nvcc knows.
+In PTX every instruction on numbers must be on the list below: no fused multiply-add (with --fma: there must be some),
+no product that could still be fused, nothing approximate, nothing that flushes subnormal numbers. In machine code there
+must be none either, but in kernels that divide or take roots, where it is how that is done.
 
 --weaken   writes products as a plain `*`, which nvcc may fuse
 --must-find TEXT   turns the verdict around: one of the findings must hold this text
@@ -106,7 +107,7 @@ def findings(options):
         runtime = output / "weakened"
     everything = output / "kernels.cu"
     everything.write_text("".join(f'#include "{pathlib.Path(file).resolve()}"\n' for file in options.files))
-    known = re.findall(r"compute_(\d+)", run(options.nvcc, "--list-gpu-arch"))
+    known = [number for number in re.findall(r"compute_(\d+)", run(options.nvcc, "--list-gpu-arch")) if int(number) >= 75]
     wanted = known if options.architectures == "all" else options.architectures.split(",")
     nvcc = [options.nvcc, "-std=c++17", f"-I{runtime}", "-Werror=all-warnings", *options.flags.split(), everything]
 

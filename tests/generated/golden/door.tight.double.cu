@@ -8,7 +8,7 @@ namespace tightrope {
 namespace {
 
 __global__ void __launch_bounds__(threads_per_block)
-    door_tight_double(const __grid_constant__ Batch<generated::door<bound::tight, double>> batch,
+    door_tight_double(const TIGHTROPE_GRID_CONSTANT Batch<generated::door<bound::tight, double>> batch,
                       const std::size_t count) {
   const std::size_t call = call_of_thread();
   if (call < count) batch.evaluate(call);
