@@ -70,6 +70,8 @@ class Function:
         name, kind = parts[0], parts[-1]
         if name in ("fma", "rcp", "ex2", "lg2", "sin", "cos", "rsqrt", "tanh") or "ftz" in parts or "approx" in parts:
             raise SystemExit(f"ptx_to_cpp: {op} is not to be there")
+        if {"hi", "sat", "NaN", "rmi", "rpi", "rni"} & set(parts):
+            raise SystemExit(f"ptx_to_cpp: {op}")
         if name in ("ld", "st"):
             return self.memory(name, parts, arguments)
         if name in ("bra", "ret"):
@@ -183,7 +185,9 @@ class Function:
             elif found := re.fullmatch(r"\.local \.align \d+ \.b8 (\w+)\[(\d+)\]", piece):
                 declarations.append(f"  alignas(16) unsigned char {found[1]}[{found[2]}]; scramble({found[1]});")
             elif found := re.fullmatch(r"\.shared \.align \d+ \.b8 (\w+)\[(\d+)\]", piece):
-                self.shared[found[1]] = sum(self.shared.values())
+                if self.shared:
+                    raise SystemExit(f"ptx_to_cpp: a second array in shared memory: {piece}")
+                self.shared[found[1]] = 0
                 declarations.append(f"  static_assert({found[2]} <= most_shared);")
             elif found := re.fullmatch(r"\{? ?\.param \.[bu]\d+ (\w+)", piece):  # of a call; each call has its own
                 names[found[1]] = f"{found[1]}_{len(code)}"
