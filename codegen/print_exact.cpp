@@ -189,7 +189,7 @@ void ExactPrinter::print_stage() {
   const std::string state = !several_stages_                         ? ""
                             : stage_ + 1 == predicate_.stages.size() ? "const State& /*state*/"
                                                                      : "State& /*state*/";
-  line(fmt::format("\n  static {0}_result {0}({1}) noexcept {{", name(), parameters(state)));
+  line(fmt::format("\n  static {0}_result {0}({1}) {{", name(), parameters(state)));
   line(fmt::format("    {}_result result;", name()));
   line(fmt::format("    {} signs[{}];", sign_type, count()));
   line(fmt::format("    {}_signs({});", name(), names("~::std::uint64_t{0}, signs")));
@@ -307,7 +307,7 @@ void ExactPrinter::print_tier(const ExactOrder& order, int words, std::string_vi
   const std::size_t n = order.slots.size() + (order.raises ? 1 : 0);
   line(fmt::format("\n  TIGHTROPE_OUT_OF_LINE static void {}_signs_{}(const {} (&x)[{}], ::std::uint64_t wanted,",
                    name(), function, real_, n));
-  line(fmt::format("      {}* signs) noexcept {{", sign_type));
+  line(fmt::format("      {}* signs) {{", sign_type));
   line("    int unit = 0;");
   line(fmt::format("    ::tightrope::Integer<{}> scaled[{}];", words, n));
   line(fmt::format("    if (!::tightrope::exact_arithmetic::scale_inputs<{}>(x, scaled, unit)) {{", bits));
@@ -326,7 +326,7 @@ void ExactPrinter::print_signs() {
     const std::size_t n = inputs.size() + (order.raises ? 1 : 0);
     line(fmt::format("\n  TIGHTROPE_OUT_OF_LINE static void {}_signs_dyadic(const {} (&x)[{}], ::std::uint64_t wanted,",
                      name(), real_, n));
-    line(fmt::format("      {}* signs) noexcept {{", sign_type));
+    line(fmt::format("      {}* signs) {{", sign_type));
     std::vector<std::string> places;
     for (std::size_t i = 0; i < inputs.size(); ++i) places.push_back(fmt::format("x[{}]", i));
     print_unbounded(order, places);
@@ -335,7 +335,7 @@ void ExactPrinter::print_signs() {
   }
   line("\n  // The signs of the output elements whose bits are set in `wanted`.");
   const std::string more = fmt::format("::std::uint64_t wanted, {}* signs", sign_type);
-  line(fmt::format("  static void {}_signs({}) noexcept {{", name(), parameters(more)));
+  line(fmt::format("  static void {}_signs({}) {{", name(), parameters(more)));
   if (!fixed) return print_unbounded(order, inputs);
   if (order.raises) inputs.emplace_back("1");
   for (std::size_t i = 0; i < inputs.size(); ++i) inputs[i] += i + 1 < inputs.size() ? "," : "};";
@@ -388,7 +388,7 @@ void ExactPrinter::print_values() {
   }
   line("  }");
   line("\n  // The exact values; none where an input is not finite, a divisor zero or a radicand negative.");
-  line(fmt::format("  static {0}_values_result {0}_values({1}) noexcept {{", name(), parameters("")));
+  line(fmt::format("  static {0}_values_result {0}_values({1}) {{", name(), parameters("")));
   line(fmt::format("    {}_values_result result;", name()));
   std::vector<std::string> inputs;
   for (const int slot : order.slots) inputs.push_back(slots_[static_cast<std::size_t>(slot)]);

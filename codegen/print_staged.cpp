@@ -170,7 +170,7 @@ void StagedPrinter::print_filter(const StagedFilter& filter) {
 /// The signs that the first filter left open, out of line; `filter` tells whether bounds hold for the inputs.
 void StagedPrinter::print_finish() {
   line("\n  // Settles the signs that are still zero, with the later filters if those apply to the inputs.");
-  line(fmt::format("  TIGHTROPE_OUT_OF_LINE static {0}_result {0}_finish({1}) noexcept {{", name(),
+  line(fmt::format("  TIGHTROPE_OUT_OF_LINE static {0}_result {0}_finish({1}) {{", name(),
                    parameters(fmt::format("[[maybe_unused]] bool filter, {}_result result", name()))));
   for (std::size_t f = 1; f < staged_.filters.size(); ++f) print_filter(staged_.filters[f]);
   line("    ::std::uint64_t wanted = 0;");
@@ -200,7 +200,7 @@ void StagedPrinter::print_finite_check() {
 
 /// The stage's function. With ranges there are two: one checks them, the other (_in_range) need not.
 void StagedPrinter::print_function(std::string_view suffix) {
-  line(fmt::format("\n  TIGHTROPE_FUNCTION static {0}_result {0}{1}({2}) noexcept {{", name(), suffix,
+  line(fmt::format("\n  TIGHTROPE_FUNCTION static {0}_result {0}{1}({2}) {{", name(), suffix,
                    parameters(state_parameter())));
   line(fmt::format("    {}_result result;", name()));
   const bool checks_range = has_filter() && has_range_ && suffix.empty();
