@@ -63,6 +63,7 @@ class PredicatePrinter {
         has_range_(std::any_of(predicate_.parameters.begin(), predicate_.parameters.end(),
                                [](const dsl::Parameter& p) { return p.range.has_value(); })) {
     name_nodes();
+    find_arguments();
   }
 
   std::string print();
@@ -70,7 +71,7 @@ class PredicatePrinter {
 
  private:
   void name_nodes();
-  bool is_argument(NodeId id) const;
+  void find_arguments();
   std::string expression(NodeId id) const;
   std::string operand(NodeId id) const { return names_[static_cast<std::size_t>(id)]; }
 
@@ -95,7 +96,8 @@ class PredicatePrinter {
   Schedule schedule_;
   std::vector<Argument> arguments_;
   std::vector<std::string> slots_;
-  std::vector<std::string> names_;  ///< by node: how it is spelled as an operand
+  std::vector<std::string> names_;     ///< by node: how it is spelled as an operand
+  std::vector<bool> may_be_argument_;  ///< by node
   bool several_stages_;
   bool has_range_;
   std::string out_;
@@ -117,18 +119,53 @@ void PredicatePrinter::name_nodes() {
   }
 }
 
-/// A number of the caller's, or its negative: it may be a product that compilers would fuse with a sum.
-bool PredicatePrinter::is_argument(NodeId id) const {
-  if (lanes_ || id == dsl::no_node) return false;  // lanes: highway-inl.h
-  const Node& node = bounded_.graph[id];
-  return node.op == Op::input || (node.op == Op::neg && bounded_.graph[node.a].op == Op::input);
+/// Numbers of the caller's, as they are or chosen from several: they may be products that compilers would fuse with a
+/// sum, also where they move it into the branches of the choice.
+void PredicatePrinter::find_arguments() {
+  may_be_argument_.resize(static_cast<std::size_t>(bounded_.graph.size()), false);
+  if (lanes_) return;  // highway-inl.h rounds what comes in
+  const auto may_be = [&](NodeId id) { return id != dsl::no_node && may_be_argument_[static_cast<std::size_t>(id)]; };
+  const auto result = [&](const Node& node) {
+    switch (node.op) {
+      case Op::input:
+        return true;
+      case Op::neg:
+      case Op::abs:
+      case Op::certain_nonzero:
+      case Op::certain_nonnegative:
+        return may_be(node.a);
+      case Op::min:
+      case Op::max:
+      case Op::max_magnitude:
+        return may_be(node.a) || may_be(node.b);
+      case Op::select:
+        return may_be(node.b) || may_be(node.c);
+      case Op::constant:
+      case Op::add:
+      case Op::sub:
+      case Op::mul:
+      case Op::mul_pow2:
+      case Op::div:
+      case Op::sqrt:
+      case Op::normalizer:
+      case Op::fma:
+        return false;  // rounded
+    }
+    return false;
+  };
+  for (NodeId id = 0; id < bounded_.graph.size(); ++id) {
+    may_be_argument_[static_cast<std::size_t>(id)] = result(bounded_.graph[id]);
+  }
 }
 
 std::string PredicatePrinter::expression(NodeId id) const {
   const Node& node = bounded_.graph[id];
   const std::string a = node.a == dsl::no_node ? "" : operand(node.a);
   const std::string b = node.b == dsl::no_node ? "" : operand(node.b);
-  const bool with_argument = is_argument(node.a) || is_argument(node.b);
+  const auto may_be_argument = [&](NodeId operand) {
+    return operand != dsl::no_node && may_be_argument_[static_cast<std::size_t>(operand)];
+  };
+  const bool with_argument = may_be_argument(node.a) || may_be_argument(node.b);
   const std::string_view suffix = options_.precision == Precision::binary32 ? "f" : "";
   switch (node.op) {
     case Op::input:

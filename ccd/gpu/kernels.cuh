@@ -70,13 +70,13 @@ __global__ void __launch_bounds__(threads_per_block) first_stage(const Chunk<Rea
 /// A later stage, on what stage - 1 has left. Each warp takes the next 32 of them that are a whole grid farther.
 template <Method M, class Real, Kind K, int Stage>
 __global__ void __launch_bounds__(threads_per_block) later_stage(const Chunk<Real> chunk) {
-  const Index* todo = chunk.lists[(Stage - 1) % 2];
+  const Index* left = chunk.lists[(Stage - 1) % 2];
   const Index count = chunk.counters->left[Stage - 1];
   const Index lane = threadIdx.x % lanes;
   for (Index warp = blockIdx.x * threads_per_block + threadIdx.x - lane; warp < count;
        warp += gridDim.x * threads_per_block) {
     const bool active = warp + lane < count;
-    const Index i = active ? todo[warp + lane] : 0;
+    const Index i = active ? left[warp + lane] : 0;
     Answer answer = Answer::apart;
     if (active) {
       Real x[numbers];

@@ -41,6 +41,9 @@ TEST(PrintCpp, SpellsOperations) {
   const Spelling table[] = {
       {"scalar a, b) { sign a + b as y }", "const double v0 = sum(a, b);\n    result.y = {v0, 0x0p+0};"},
       {"scalar a, b) { sign a - b as y }", "const double v0 = difference(a, b);"},
+      {"scalar a, b) { sign min(a, b) - max(a, b) as y }", "const double v2 = difference(v0, v1);"},
+      {"scalar a, b) { sign a * b - abs(a) as y }", "const double v2 = difference(v0, v1);"},
+      {"scalar a, b) { sign a * a - b * b as y }", "const double v2 = v0 - v1;"},
       {"scalar a, b) { sign a * b + a * a as y }", "const double v2 = v0 + v1;"},
       {"scalar a, b) { sign a * b as y }", "const double v0 = product(a, b);"},
       {"scalar a) { sign 8 * a as y }", "const double v0 = product(a, 0x1p+3);"},
